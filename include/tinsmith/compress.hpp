@@ -1,0 +1,47 @@
+#pragma once
+// DEM in, TIN out.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tinsmith/certificate.hpp"
+#include "tinsmith/options.hpp"
+#include "tinsmith/tin.hpp"
+
+namespace tinsmith {
+
+/// What a compression did. Heights and the tolerance are in metres.
+struct CompressReport {
+  double tolerance = 0;          // that the result was made with (found by search for triangles and ratio)
+  std::uint64_t samples = 0;     // valid samples
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t full_triangles = 0;    // of the full grid: two for each valid 2 x 2 block
+  std::uint64_t windows = 0;           // of round 0
+  std::uint64_t start_triangles = 0;   // after select and triangulate
+  std::vector<std::uint64_t> round_triangles;  // after each round
+  std::vector<double> round_seconds;
+  std::vector<std::string> remarks;    // what the user should be told once
+};
+
+/// Reads the rasters as one grid, compresses them and writes `output` (.ply .obj .glb .2dm). The bytes
+/// written depend on the inputs and options only, not on threads. Throws one of tinsmith/error.hpp; then
+/// what stood at `output` before still stands there. The caller measures the result with verify().
+CompressReport compress(const std::vector<std::string>& inputs, const std::string& output,
+                        const InputOptions& input_options, const CompressOptions& options);
+
+/// A grid of heights in memory: row by row, width * height of them, NaN is a void. Steps in metres.
+struct HeightArray {
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  const double* z = nullptr;  // not owned
+  double step_x = 1;          // metres between columns
+  double step_y = 1;          // metres between rows
+};
+
+/// The same for heights in memory: x = column * step_x, y = row * step_y, z as given.
+Tin compress(const HeightArray& heights, const CompressOptions& options, CompressReport* report = nullptr);
+
+}  // namespace tinsmith

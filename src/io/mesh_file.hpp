@@ -1,0 +1,30 @@
+#pragma once
+// Mesh files by extension: .ply .obj .glb .2dm. One format has one source file each, ply.cpp, obj.cpp, ...
+
+#include <string>
+
+#include "geodesy/grid_frame.hpp"
+#include "mesh/terrain_mesh.hpp"
+#include "tinsmith/tin.hpp"
+
+namespace tinsmith {
+
+/// Throws UsageError when the extension of the path is none that can be written; names those that can.
+void require_mesh_extension(const std::string& path);
+
+/// The largest change of a height (vertical units) that writing heights within [lowest, highest] to the
+/// format of this path may cause: half a step of float32 about the local origin for .glb, 0 for the others.
+/// Plan positions are exact in every format.
+double height_rounding(const std::string& path, double lowest, double highest);
+
+/// Writes aside and renames when whole, so that a failed write leaves the previous file as it was. Writes the
+/// .prj companion of .obj and .2dm the same way. The bytes depend on the arguments only, the path excluded.
+/// Throws OutputError (with the system's reason), ResourceError when the format can't hold the mesh.
+void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame);
+
+/// Reads any of the written formats back, in the CRS and vertical unit of the input that it was made from
+/// (GLB: undoing the node's transform and the metres that its extras declare). Throws InputError, with the
+/// place of the damage, for anything that is not a whole, valid file: never crashes on garbage.
+Tin read_mesh(const std::string& path);
+
+}  // namespace tinsmith
