@@ -32,8 +32,6 @@ inline std::int64_t orient(LatticePoint a, LatticePoint b, LatticePoint c) {
   return abx * acy - aby * acx;
 }
 
-inline bool is_sample_position(LatticePoint p) {
-  return p.x % kLatticePerCell == 0 && p.y % kLatticePerCell == 0;
-}
+inline bool is_sample_position(LatticePoint p) { return p.x % kLatticePerCell == 0 && p.y % kLatticePerCell == 0; }
 
 }  // namespace tinsmith

@@ -1,0 +1,175 @@
+#include "mesh/window_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/check.hpp"
+
+namespace tinsmith {
+
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// Halfedges by origin, as one array with offsets.
+struct Outgoing {
+  std::vector<std::int32_t> first;
+  std::vector<std::int32_t> halfedge;
+};
+
+Outgoing outgoing_of(const WindowMesh& mesh) {
+  Outgoing result;
+  result.first.assign(mesh.position.size() + 1, 0);
+  result.halfedge.resize(mesh.origin.size());
+  for (const std::int32_t v : mesh.origin) ++result.first[at(v) + 1];
+  for (std::size_t v = 0; v < mesh.position.size(); ++v) result.first[v + 1] += result.first[v];
+  std::vector<std::int32_t> fill(result.first.begin(), result.first.end() - 1);
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) result.halfedge[at(fill[at(mesh.origin[at(h)])]++)] = h;
+  return result;
+}
+
+void pair_twins(WindowMesh& mesh, const Outgoing& outgoing) {
+  mesh.twin.assign(mesh.origin.size(), kNone);
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    if (mesh.twin[at(h)] != kNone) continue;
+    const std::int32_t b = mesh.destination(h);
+    for (std::int32_t i = outgoing.first[at(b)]; i < outgoing.first[at(b) + 1]; ++i) {
+      const std::int32_t g = outgoing.halfedge[at(i)];
+      if (mesh.destination(g) != mesh.origin[at(h)]) continue;
+      mesh.twin[at(h)] = g;
+      mesh.twin[at(g)] = h;
+      break;
+    }
+  }
+}
+
+// The first halfedge of the fan that h belongs to: clockwise as far as it goes.
+std::int32_t fan_start(const WindowMesh& mesh, std::int32_t h) {
+  std::int32_t g = h;
+  while (mesh.twin[at(g)] != kNone) {
+    g = WindowMesh::next(mesh.twin[at(g)]);
+    if (g == h) break;
+  }
+  return g;
+}
+
+std::int32_t copy_vertex(WindowMesh& mesh, std::int32_t v) {
+  mesh.position.push_back(mesh.position[at(v)]);
+  mesh.height.push_back(mesh.height[at(v)]);
+  mesh.was_free.push_back(mesh.was_free[at(v)]);
+  mesh.kind.push_back(VertexKind::kLocked);
+  mesh.out.push_back(kNone);
+  return mesh.n_vertices() - 1;
+}
+
+// Gives each fan of v a vertex of its own; the first fan keeps v.
+void separate_fans(WindowMesh& mesh, std::int32_t v, const Outgoing& outgoing, std::vector<std::uint8_t>& seen) {
+  bool is_first = true;
+  for (std::int32_t i = outgoing.first[at(v)]; i < outgoing.first[at(v) + 1]; ++i) {
+    const std::int32_t h = outgoing.halfedge[at(i)];
+    if (seen[at(h)]) continue;
+    const std::int32_t start = fan_start(mesh, h);
+    const std::int32_t owner = is_first ? v : copy_vertex(mesh, v);
+    if (!is_first) mesh.kind[at(v)] = VertexKind::kLocked;
+    is_first = false;
+    mesh.out[at(owner)] = start;
+    std::int32_t g = start;
+    do {
+      seen[at(g)] = 1;
+      mesh.origin[at(g)] = owner;
+      g = mesh.turn(g);
+    } while (g != kNone && g != start);
+  }
+}
+
+// Joins the outer neighbours of the triangle of h, which falls away; the vertex opposite to h keeps a halfedge.
+void close_triangle(WindowMesh& mesh, std::int32_t h) {
+  const std::int32_t a = mesh.twin[at(WindowMesh::next(h))];
+  const std::int32_t b = mesh.twin[at(WindowMesh::previous(h))];
+  const std::int32_t apex = mesh.origin[at(WindowMesh::previous(h))];
+  TINSMITH_ASSERT(a != kNone || b != kNone);
+  if (mesh.out[at(apex)] == WindowMesh::previous(h)) mesh.out[at(apex)] = a;
+  if (a != kNone) mesh.twin[at(a)] = b;
+  if (b != kNone) mesh.twin[at(b)] = a;
+  const std::int32_t t = h / 3 * 3;
+  for (std::int32_t k = 0; k < 3; ++k) mesh.origin[at(t + k)] = kNone;
+}
+
+}  // namespace
+
+void connect(WindowMesh& mesh, const std::vector<std::array<std::int32_t, 3>>& triangles) {
+  mesh.origin.clear();
+  mesh.origin.reserve(triangles.size() * 3);
+  for (const auto& t : triangles) mesh.origin.insert(mesh.origin.end(), t.begin(), t.end());
+  mesh.kind.assign(mesh.position.size(), VertexKind::kInterior);
+  mesh.out.assign(mesh.position.size(), kNone);
+  const Outgoing outgoing = outgoing_of(mesh);
+  pair_twins(mesh, outgoing);
+  std::vector<std::uint8_t> seen(mesh.origin.size(), 0);
+  const std::int32_t n = mesh.n_vertices();
+  for (std::int32_t v = 0; v < n; ++v) separate_fans(mesh, v, outgoing, seen);
+}
+
+//        vl
+//       /  \          h runs from v0 to v1, g back. One of them goes, and the triangles (v0, v1, vl) and
+//     v0 -> v1        (v1, v0, vr) fall away.
+//       \  /
+//        vr
+void collapse_edge(WindowMesh& mesh, std::int32_t h, std::int32_t kept, const Place& place) {
+  const std::int32_t gone = mesh.origin[at(h)] == kept ? mesh.destination(h) : mesh.origin[at(h)];
+  const std::int32_t g = mesh.twin[at(h)];
+  const std::int32_t start = mesh.out[at(gone)];
+  std::int32_t f = start;
+  do {
+    mesh.origin[at(f)] = kept;
+    f = mesh.turn(f);
+  } while (f != kNone && f != start);
+  // A halfedge that leaves the new vertex, outside of (v0, v1, vl): from it the start of the fan is found.
+  std::int32_t leaving = mesh.twin[at(WindowMesh::previous(h))];
+  if (leaving == kNone) leaving = WindowMesh::next(mesh.twin[at(WindowMesh::next(h))]);
+  close_triangle(mesh, h);
+  if (g != kNone) close_triangle(mesh, g);
+  mesh.out[at(gone)] = kNone;
+  mesh.out[at(kept)] = fan_start(mesh, leaving);
+  mesh.position[at(kept)] = place.position;
+  mesh.height[at(kept)] = place.height;
+}
+
+namespace {
+
+std::string validate_halfedge(const WindowMesh& mesh, std::int32_t h) {
+  const std::int32_t t = mesh.twin[at(h)];
+  if (t != kNone && mesh.twin[at(t)] != h) return fmt::format("I1: the twin's twin of halfedge {} is another", h);
+  if (t != kNone && mesh.origin[at(t)] != mesh.destination(h))
+    return fmt::format("I1: the twin of halfedge {} starts elsewhere", h);
+  if (!mesh.is_alive(mesh.origin[at(h)])) return fmt::format("halfedge {} leaves a removed vertex", h);
+  return {};
+}
+
+}  // namespace
+
+std::string validate(const WindowMesh& mesh) {
+  std::vector<std::int32_t> degree(mesh.position.size(), 0);
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    if (mesh.origin[at(h)] == kNone) continue;
+    if (std::string broken = validate_halfedge(mesh, h); !broken.empty()) return broken;
+    ++degree[at(mesh.origin[at(h)])];
+    const auto corner = [&](std::int32_t e) { return mesh.position[at(mesh.origin[at(e)])]; };
+    const std::int32_t n = WindowMesh::next(h);
+    if (orient(corner(h), corner(n), corner(WindowMesh::next(n))) <= 0)
+      return fmt::format("I2: triangle {} is not counter-clockwise", h / 3);
+  }
+  for (std::int32_t v = 0; v < mesh.n_vertices(); ++v) {
+    if (!mesh.is_alive(v)) continue;
+    std::int32_t n = 0;
+    for_each_out(mesh, v, [&](std::int32_t h) {
+      if (mesh.origin[at(h)] == v) ++n;
+    });
+    if (n != degree[at(v)])
+      return fmt::format("the fan of vertex {} meets {} of {} halfedges", v, n, degree[at(v)]);
+  }
+  return {};
+}
+
+}  // namespace tinsmith

@@ -1,0 +1,35 @@
+#pragma once
+// The work on one window: a pure function of samples, options and the chunks that touch it. The same task
+// runs for every window of a round, in any order, on any thread.
+
+#include <cstdint>
+#include <vector>
+
+#include "samples/height_grid.hpp"
+#include "tile/chunk.hpp"
+#include "tinsmith/options.hpp"
+
+namespace tinsmith {
+
+struct WindowOptions {
+  double tolerance = 0;  // vertical units
+  double aspect = 1;     // metres between rows / metres between columns, at the window
+  Placement placement = Placement::kOptimal;
+};
+
+/// What a task of round 0 gives.
+struct FirstChunk {
+  Chunk chunk;
+  std::uint64_t start_triangles = 0;  // before simplification
+  std::uint64_t valid_cells = 0;
+  std::uint64_t samples = 0;  // valid ones; the window's right and lower border are its neighbours'
+};
+
+/// Round 0: select, triangulate, simplify; the vertices on the window's border stay as they are.
+FirstChunk first_chunk(const HeightField& field, const GridRect& window, const WindowOptions& options);
+
+/// Rounds 1 to 3: the parts of the earlier round's chunks that belong to the window are welded, and the seams
+/// that now lie inside dissolve.
+Chunk seam_chunk(const HeightField& field, const std::vector<const Chunk*>& parts, const WindowOptions& options);
+
+}  // namespace tinsmith

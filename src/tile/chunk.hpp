@@ -1,0 +1,37 @@
+#pragma once
+// What a window task leaves: a piece of the surface. A vertex is known everywhere by its place on the lattice,
+// of which there is one height only (at a pinch, too): pieces need no numbers in common to be welded.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/lattice.hpp"
+#include "mesh/window_mesh.hpp"
+#include "tile/windows.hpp"
+
+namespace tinsmith {
+
+struct Chunk {
+  std::vector<LatticePoint> position;
+  std::vector<double> height;
+  std::vector<std::uint8_t> was_free;  // see WindowMesh
+  std::vector<std::array<std::int32_t, 3>> triangles;
+
+  bool is_empty() const { return triangles.empty(); }
+};
+
+/// The live part of a mesh, whose vertices that are not locked count as free from now on.
+Chunk chunk_of(const WindowMesh& mesh);
+
+/// The part of a chunk that belongs to a window, for each window that it touches, in the order of the windows.
+struct ChunkPart {
+  std::int64_t window = 0;
+  Chunk chunk;
+};
+std::vector<ChunkPart> split(const Chunk& chunk, const WindowGrid& windows);
+
+/// One chunk of several: vertices at the same place become one. Vertices are sorted by place.
+Chunk weld(const std::vector<const Chunk*>& parts);
+
+}  // namespace tinsmith
