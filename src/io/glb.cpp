@@ -1,0 +1,377 @@
+#include "io/glb.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/input_file.hpp"
+#include "io/mesh_text.hpp"
+#include "io/output_file.hpp"
+#include "tinsmith/error.hpp"
+
+namespace tinsmith {
+namespace {
+
+// Local frame of the node: X = column - origin column, Z = +-(row - origin row), in cells, Y = metres above the
+// origin's height. The sign makes it a right-handed frame with Y up, so that the node never mirrors. World:
+// X = east, Y = up, Z = -north, each the CRS coordinate times metres_per_unit.
+
+using Json = nlohmann::ordered_json;
+using Position = std::array<float, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+static_assert(std::endian::native == std::endian::little, "glTF is written in the machine's byte order");
+
+constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
+constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
+constexpr std::uint64_t kHeaderBytes = 12;
+constexpr std::uint64_t kChunkHeaderBytes = 8;
+constexpr std::uint64_t kMaxJsonBytes = 1 << 24;  // ours have some kilobytes: a CRS and a page of numbers
+constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125;
+constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;
+
+// float32 holds sixteenths of a cell exactly up to 2^24 of them; a cell less for the rounding of the origin.
+constexpr std::int64_t kMaxHalfExtent = (std::int64_t{1} << 24) - kLatticePerCell;
+
+/// Where the local frame has its origin, and what its metres are.
+struct LocalFrame {
+  std::int64_t column = 0;
+  std::int64_t row = 0;
+  double height = 0;                               // vertical units, whole
+  std::array<double, 3> metres_per_unit{1, 1, 1};  // of the CRS's x, y and height
+  double row_sign = 1;                             // of Z
+};
+
+/// Translation, rotation (a quaternion about Y) and scale of the node.
+struct Transform {
+  std::array<double, 3> translation{};
+  std::array<double, 4> rotation{0, 0, 0, 1};
+  std::array<double, 3> scale{1, 1, 1};
+};
+
+std::array<double, 3> to_world(const Transform& node, const Position& local) {
+  const double sine = 2 * node.rotation[1] * node.rotation[3];
+  const double cosine = node.rotation[3] * node.rotation[3] - node.rotation[1] * node.rotation[1];
+  const double x = node.scale[0] * local[0];
+  const double z = node.scale[2] * local[2];
+  return {node.translation[0] + cosine * x + sine * z, node.translation[1] + node.scale[1] * local[1],
+          node.translation[2] - sine * x + cosine * z};
+}
+
+std::array<double, 3> to_crs(const GridFrame& frame, const LocalFrame& local, const Position& p) {
+  const auto [x, y] = frame.to_crs(static_cast<double>(local.column) + p[0],
+                                   static_cast<double>(local.row) + local.row_sign * p[2]);
+  return {x, y, local.height + p[1] / local.metres_per_unit[2]};
+}
+
+/// Padding to the four bytes that glTF wants.
+std::uint64_t padded(std::uint64_t size) { return (size + 3) / 4 * 4; }
+
+// ---- writing
+
+/// The middle of the heights, as a whole number: whole heights stay whole, and small ones keep their digits.
+double origin_height(double lowest, double highest) { return std::round(lowest / 2 + highest / 2); }
+
+void require_float_holds(const std::string& path, std::int64_t extent, double metres) {
+  if (extent / 2 > kMaxHalfExtent)
+    throw ResourceError(
+        fmt::format("{}: {} cells in a row are more than float32 places exactly; write .ply instead", path,
+                    extent / kLatticePerCell));
+  if (!(metres <= std::numeric_limits<float>::max()))
+    throw ResourceError(fmt::format("{}: heights of {} m are beyond float32; write .ply instead", path, metres));
+}
+
+LocalFrame local_frame(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame) {
+  const auto [west, east] = std::minmax_element(mesh.position.begin(), mesh.position.end(),
+                                                [](LatticePoint a, LatticePoint b) { return a.x < b.x; });
+  const auto [first, last] = std::minmax_element(mesh.position.begin(), mesh.position.end());
+  const auto [lowest, highest] = std::minmax_element(mesh.height.begin(), mesh.height.end());
+  const std::int64_t width = std::int64_t{east->x} - west->x;
+  const std::int64_t length = std::int64_t{last->y} - first->y;
+  LocalFrame local;
+  local.column = (west->x + width / 2) / kLatticePerCell;
+  local.row = (first->y + length / 2) / kLatticePerCell;
+  local.height = origin_height(*lowest, *highest);
+  const auto [x, y] = frame.metres_per_unit(static_cast<double>(local.column), static_cast<double>(local.row));
+  local.metres_per_unit = {x, y, frame.metres_per_vertical_unit};
+  local.row_sign = frame.is_mirrored() ? 1 : -1;
+  require_float_holds(path, std::max(width, length),
+                      std::max(*highest - local.height, local.height - *lowest) * local.metres_per_unit[2]);
+  return local;
+}
+
+/// The rotation about Y of this cosine and sine, by half-angle formulas that round alike on every machine.
+std::array<double, 4> about_y(double cosine, double sine) {
+  if (cosine >= 0) {
+    const double w = std::sqrt((1 + cosine) / 2);
+    return {0, sine / (2 * w), 0, w};
+  }
+  const double y = std::copysign(std::sqrt((1 - cosine) / 2), sine);
+  return {0, y, 0, sine / (2 * y)};
+}
+
+Transform node_transform(const std::string& path, const GridFrame& frame, const LocalFrame& local) {
+  const auto& g = frame.geotransform;
+  const auto [mx, my, mz] = local.metres_per_unit;
+  // World (X, Z) of a step along local X and along local Z; adding 0 makes -0 a plain 0 in the file.
+  const std::array<double, 2> along_x{mx * g[1], -my * g[4] + 0.0};
+  const std::array<double, 2> along_z{local.row_sign * mx * g[2] + 0.0, -local.row_sign * my * g[5]};
+  const double scale_x = std::sqrt(along_x[0] * along_x[0] + along_x[1] * along_x[1]);
+  const double scale_z = std::sqrt(along_z[0] * along_z[0] + along_z[1] * along_z[1]);
+  // Off by 1e-9 of a right angle, the far end of a million cells is off by a thousandth of a cell.
+  if (std::abs(along_x[0] * along_z[0] + along_x[1] * along_z[1]) > 1e-9 * scale_x * scale_z)
+    throw ResourceError(path +
+                        ": the rows and columns of the grid are not at right angles in metres, which a glTF node "
+                        "can't say; write .ply instead");
+  const auto [x, y] = frame.to_crs(static_cast<double>(local.column), static_cast<double>(local.row));
+  return {{x * mx, local.height * mz, -y * my},
+          about_y(along_x[0] / scale_x, -along_x[1] / scale_x + 0.0),
+          {scale_x, 1, scale_z}};
+}
+
+Position local_position(const TerrainMesh& mesh, std::size_t v, const LocalFrame& local) {
+  const LatticePoint p = mesh.position[v];
+  const auto x = static_cast<float>(p.x - local.column * kLatticePerCell) / kLatticePerCell;
+  const auto z = static_cast<float>(p.y - local.row * kLatticePerCell) / kLatticePerCell;
+  const double y = (mesh.height[v] - local.height) * local.metres_per_unit[2];
+  return {x, static_cast<float>(y), static_cast<float>(local.row_sign) * z + 0.0F};
+}
+
+Json positions_accessor(const TerrainMesh& mesh, const LocalFrame& local) {
+  Position low = local_position(mesh, 0, local);
+  Position high = low;
+  for (std::size_t v = 1; v < mesh.position.size(); ++v) {
+    const Position p = local_position(mesh, v, local);
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  return {{"bufferView", 0},
+          {"componentType", kFloat},
+          {"count", mesh.position.size()},
+          {"type", "VEC3"},
+          {"min", std::array<double, 3>{low[0], low[1], low[2]}},
+          {"max", std::array<double, 3>{high[0], high[1], high[2]}}};
+}
+
+/// What read_glb needs to find the CRS coordinates to the last bit, and what others need to use them.
+Json extras(const GridFrame& frame, const LocalFrame& local) {
+  const auto [x, y] = frame.to_crs(static_cast<double>(local.column), static_cast<double>(local.row));
+  return {{"crs_wkt", frame.crs_wkt},
+          {"origin", std::array{x, y, local.height}},
+          {"metres_per_unit", local.metres_per_unit},
+          {"geotransform", frame.geotransform},
+          {"origin_column", local.column},
+          {"origin_row", local.row}};
+}
+
+/// Sizes of the two halves of the binary chunk. Index 65535 is not a vertex in glTF.
+struct Layout {
+  explicit Layout(const TerrainMesh& mesh)
+      : index_bytes(mesh.position.size() < 65536 ? 2 : 4),
+        positions(mesh.position.size() * sizeof(Position)),
+        indices(mesh.triangles.size() * 3 * index_bytes) {}
+  std::uint64_t index_bytes;
+  std::uint64_t positions;
+  std::uint64_t indices;
+};
+
+std::string json_text(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame,
+                      const LocalFrame& local) {
+  const Layout layout(mesh);
+  const Transform node = node_transform(path, frame, local);
+  Json json;
+  json["asset"] = {{"version", "2.0"}, {"generator", "tinsmith"}};
+  json["scene"] = 0;
+  json["scenes"] = {{{"nodes", {0}}}};
+  json["nodes"] = {{{"mesh", 0},
+                    {"translation", node.translation},
+                    {"rotation", node.rotation},
+                    {"scale", node.scale},
+                    {"extras", extras(frame, local)}}};
+  json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}};
+  json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}}};
+  json["accessors"] = {positions_accessor(mesh, local),
+                       {{"bufferView", 1},
+                        {"componentType", layout.index_bytes == 2 ? kUint16 : kUint32},
+                        {"count", mesh.triangles.size() * 3},
+                        {"type", "SCALAR"}}};
+  json["bufferViews"] = {
+      {{"buffer", 0}, {"byteLength", layout.positions}, {"target", kVertexBuffer}},
+      {{"buffer", 0}, {"byteOffset", layout.positions}, {"byteLength", layout.indices}, {"target", kIndexBuffer}}};
+  json["buffers"] = {{{"byteLength", layout.positions + layout.indices}}};
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  text.resize(padded(text.size()), ' ');
+  return text;
+}
+
+void write_chunk_header(OutputFile& file, std::uint64_t size, std::uint32_t type) {
+  const std::array<std::uint32_t, 2> header{static_cast<std::uint32_t>(size), type};
+  file.write(header.data(), sizeof header);
+}
+
+void write_triangle(OutputFile& file, const Triangle& triangle, std::uint64_t index_bytes) {
+  if (index_bytes == 4) return file.write(triangle.data(), sizeof triangle);
+  const std::array<std::uint16_t, 3> narrow{static_cast<std::uint16_t>(triangle[0]),
+                                            static_cast<std::uint16_t>(triangle[1]),
+                                            static_cast<std::uint16_t>(triangle[2])};
+  file.write(narrow.data(), sizeof narrow);
+}
+
+// ---- reading
+
+std::uint64_t count(const Json& json) {
+  if (!json.is_number_unsigned()) throw std::invalid_argument("a count is none");
+  return json.get<std::uint64_t>();
+}
+
+std::int64_t whole(const Json& json) {
+  if (!json.is_number_integer()) throw std::invalid_argument("a whole number is none");
+  return json.get<std::int64_t>();
+}
+
+/// What the JSON chunk says.
+struct Document {
+  std::uint64_t n_vertices = 0;
+  std::uint64_t n_indices = 0;
+  std::uint64_t index_bytes = 0;
+  Transform node;
+  GridFrame frame;
+  LocalFrame local;
+};
+
+void interpret_node(const Json& node, Document& document) {
+  const Json& extras = node.at("extras");
+  document.node.translation = node.at("translation").get<std::array<double, 3>>();
+  document.node.rotation = node.at("rotation").get<std::array<double, 4>>();
+  document.node.scale = node.at("scale").get<std::array<double, 3>>();
+  document.frame.crs_wkt = extras.at("crs_wkt").get<std::string>();
+  document.frame.geotransform = extras.at("geotransform").get<std::array<double, 6>>();
+  document.local.column = whole(extras.at("origin_column"));
+  document.local.row = whole(extras.at("origin_row"));
+  document.local.height = extras.at("origin").at(2).get<double>();
+  document.local.metres_per_unit = extras.at("metres_per_unit").get<std::array<double, 3>>();
+  document.local.row_sign = document.frame.is_mirrored() ? 1 : -1;
+}
+
+Document interpret(const Json& json) {
+  Document document;
+  const Json& positions = json.at("accessors").at(0);
+  const Json& indices = json.at("accessors").at(1);
+  if (positions.at("componentType") != kFloat || positions.at("type") != "VEC3" || indices.at("type") != "SCALAR" ||
+      (indices.at("componentType") != kUint16 && indices.at("componentType") != kUint32))
+    throw std::invalid_argument("the accessors are not as tinsmith writes them");
+  document.n_vertices = count(positions.at("count"));
+  document.n_indices = count(indices.at("count"));
+  document.index_bytes = indices.at("componentType") == kUint16 ? 2 : 4;
+  interpret_node(json.at("nodes").at(0), document);
+  return document;
+}
+
+std::uint64_t read_chunk_header(InputFile& file, std::uint32_t type, const char* name) {
+  const std::uint64_t size = file.read<std::uint32_t>();
+  if (file.read<std::uint32_t>() != type || size > file.left())
+    file.fail(fmt::format("has no whole {} chunk here", name));
+  return size;
+}
+
+Document read_document(InputFile& file) {
+  if (file.read<std::uint32_t>() != kMagic || file.read<std::uint32_t>() != 2) file.fail("is no binary glTF 2");
+  if (file.read<std::uint32_t>() != file.size()) file.fail("is not as long as its head says");
+  const std::uint64_t size = read_chunk_header(file, kJsonChunk, "JSON");
+  if (size > kMaxJsonBytes) file.fail("has more JSON than a mesh of ours can have");
+  std::string text(size, ' ');
+  file.read(text.data(), text.size());
+  try {
+    return interpret(Json::parse(text));
+  } catch (const std::exception& error) {
+    file.fail(fmt::format("is no glTF of tinsmith's: {}", one_line(error.what())));
+  }
+}
+
+/// The mesh must stand where its node puts it: whoever shows the file follows the node, not the extras.
+void require_agreement(const InputFile& file, const Document& document, const Position& local,
+                       const std::array<double, 3>& crs) {
+  const auto world = to_world(document.node, local);
+  const auto& metres = document.local.metres_per_unit;
+  const std::array<double, 3> expected{crs[0] * metres[0], crs[2] * metres[2], -crs[1] * metres[1]};
+  const auto& scale = document.node.scale;
+  const std::array<double, 3> slack{1e-2 * scale[0], 1e-6, 1e-2 * scale[2]};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(std::abs(world[k] - expected[k]) <= slack[k] + 1e-12 * std::abs(expected[k])))
+      file.fail("the node's transform and its extras put the mesh in different places");
+}
+
+Triangle read_triangle(InputFile& file, std::uint64_t index_bytes) {
+  if (index_bytes == 4) return file.read<Triangle>();
+  const auto narrow = file.read<std::array<std::uint16_t, 3>>();
+  return {narrow[0], narrow[1], narrow[2]};
+}
+
+}  // namespace
+
+double glb_height_rounding(double lowest, double highest) {
+  const double origin = origin_height(lowest, highest);
+  const double farthest = std::max(highest - origin, origin - lowest);
+  // Half a step of float32 (2^-24 of the number at most), and two of double for the way there and back.
+  return farthest * 0x1p-24 +
+         2 * std::numeric_limits<double>::epsilon() * std::max(std::abs(lowest), std::abs(highest));
+}
+
+void write_glb(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame) {
+  if (mesh.triangles.empty())
+    throw ResourceError(path + ": glTF can't hold a mesh without triangles; write .ply instead");
+  const LocalFrame local = local_frame(path, mesh, frame);
+  const std::string json = json_text(path, mesh, frame, local);
+  const Layout layout(mesh);
+  const std::uint64_t binary = padded(layout.positions + layout.indices);
+  const std::uint64_t total = kHeaderBytes + 2 * kChunkHeaderBytes + json.size() + binary;
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    throw ResourceError(
+        fmt::format("{}: {} bytes are more than the 4 GiB of a .glb; write .ply instead", path, total));
+
+  OutputFile file(path);
+  const std::array<std::uint32_t, 3> header{kMagic, 2, static_cast<std::uint32_t>(total)};
+  file.write(header.data(), sizeof header);
+  write_chunk_header(file, json.size(), kJsonChunk);
+  file.write(json);
+  write_chunk_header(file, binary, kBinChunk);
+  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+    const Position position = local_position(mesh, v, local);
+    file.write(position.data(), sizeof position);
+  }
+  for (const Triangle& triangle : mesh.triangles)
+    write_triangle(file, turned(triangle, frame.is_mirrored()), layout.index_bytes);
+  file.write(std::string(binary - layout.positions - layout.indices, '\0'));
+  file.commit();
+}
+
+Tin read_glb(const std::string& path) {
+  InputFile file(path);
+  const Document document = read_document(file);
+  const std::uint64_t size = read_chunk_header(file, kBinChunk, "binary");
+  if (size != file.left() || document.n_vertices > size / sizeof(Position) ||
+      document.n_indices > size / document.index_bytes || document.n_indices % 3 != 0 ||
+      padded(document.n_vertices * sizeof(Position) + document.n_indices * document.index_bytes) != size)
+    file.fail("the binary chunk is not as long as the accessors say");
+  Tin tin;
+  tin.crs_wkt = document.frame.crs_wkt;
+  tin.vertices.resize(document.n_vertices);
+  for (auto& vertex : tin.vertices) {
+    const auto local = file.read<Position>();
+    vertex = to_crs(document.frame, document.local, local);
+    require_agreement(file, document, local, vertex);
+  }
+  tin.triangles.resize(document.n_indices / 3);
+  for (Triangle& triangle : tin.triangles) triangle = read_triangle(file, document.index_bytes);
+  return tin;
+}
+
+}  // namespace tinsmith

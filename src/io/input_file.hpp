@@ -1,0 +1,50 @@
+#pragma once
+// A mesh file being read: never past its end, every complaint with its place.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tinsmith {
+
+/// Sequential buffered reading of a regular file, as bytes or line by line. Every failure is an InputError
+/// that names the path and the byte at which it was noticed.
+class InputFile {
+ public:
+  explicit InputFile(const std::string& path);
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  ~InputFile();
+
+  std::uint64_t size() const { return size_; }
+  std::uint64_t position() const { return position_; }
+  std::uint64_t left() const { return size_ - position_; }
+
+  void read(void* bytes, std::size_t size);
+  template <class T>
+  T read() {
+    T value;
+    read(&value, sizeof value);
+    return value;
+  }
+
+  /// The next line without its end; it lives until the next call. False at the end of the file. A last line
+  /// without an end is a file cut short.
+  bool read_line(std::string_view& line);
+
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  bool refill();
+
+  std::string path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+  std::uint64_t position_ = 0;  // of the next byte handed out
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;  // of the bytes in the buffer that are not handed out yet
+  std::size_t end_ = 0;
+};
+
+}  // namespace tinsmith

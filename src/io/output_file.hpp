@@ -1,0 +1,42 @@
+#pragma once
+// A file that appears under its name only when it is whole.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace tinsmith {
+
+/// Writes to a temporary file in the folder of `path`. commit() puts it in the place of `path`; without it
+/// the destructor removes the temporary file, and what stood at `path` before still stands there. Every
+/// failure is an OutputError with the path and the system's reason. A link is followed, its target replaced.
+class OutputFile {
+ public:
+  /// Throws OutputError when the folder can't be written or `path` is there and not a regular file.
+  explicit OutputFile(const std::string& path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  void write(const void* bytes, std::size_t size);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+
+  /// Brings all bytes to the disk; nothing may be written afterwards. For several files that belong together:
+  /// finish() all of them before the first commit().
+  void finish();
+
+  /// finish(), then renames.
+  void commit();
+
+ private:
+  [[noreturn]] void fail(int error) const;
+  void flush();
+
+  std::string path_;
+  std::string target_;
+  std::string temporary_;  // empty: none there
+  std::string buffer_;
+  int descriptor_ = -1;
+};
+
+}  // namespace tinsmith
