@@ -64,6 +64,8 @@ void require_sound(const std::string& path, const Tin& tin) {
 
 }  // namespace
 
+bool is_mesh_path(const std::string& path) { return format_of(path) != nullptr; }
+
 void require_mesh_extension(const std::string& path) {
   if (format_of(path) == nullptr) throw UsageError(unknown_extension(path));
 }

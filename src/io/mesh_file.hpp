@@ -9,6 +9,9 @@
 
 namespace tinsmith {
 
+/// Whether the extension of the path is that of a mesh file, in small or capital letters.
+bool is_mesh_path(const std::string& path);
+
 /// Throws UsageError when the extension of the path is none that can be written; names those that can.
 void require_mesh_extension(const std::string& path);
 
