@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tinsmith {
 
@@ -9,127 +10,121 @@ namespace {
 
 constexpr double kCell = 1.0 / kLatticePerCell;
 
-// The edge in cells, relative to v0.
-struct EdgeFrame {
-  const EdgeEnd& v0;
-  const EdgeEnd& v1;
-  double dx, dy, dz;
-  PlanError error;
-
-  EdgeFrame(const EdgeEnd& a, const EdgeEnd& b)
-      : v0(a),
-        v1(b),
-        dx((b.position.x - a.position.x) * kCell),
-        dy((b.position.y - a.position.y) * kCell),
-        dz(b.height - a.height),
-        error(*a.quadric, *b.quadric, dx, dy, dz) {}
+// A plan position in cells, relative to v0.
+struct PlanPoint {
+  double x = 0;
+  double y = 0;
 };
 
-Candidate at_plan(const EdgeFrame& edge, double x, double y) {
-  const auto to_lattice = [](std::int32_t from, double cells) {
-    return from + static_cast<std::int32_t>(std::lround(cells * kLatticePerCell));
-  };
-  Candidate result;
-  result.position = {to_lattice(edge.v0.position.x, x), to_lattice(edge.v0.position.y, y)};
-  result.height = edge.v0.height + edge.error.height(x, y);
-  return result;
+// The edge in cells, relative to v0.
+struct EdgeFrame {
+  const Edge& edge;
+  PlanPoint d;
+  double dz;
+  PlanError error;
+
+  explicit EdgeFrame(const Edge& e)
+      : edge(e),
+        d{(e.v1.position.x - e.v0.position.x) * kCell, (e.v1.position.y - e.v0.position.y) * kCell},
+        dz(e.v1.height - e.v0.height),
+        error(*e.v0.quadric, *e.v1.quadric, d.x, d.y, dz) {}
+};
+
+Freedom freedom_of(const Edge& edge) {
+  const bool needs_border = edge.v0.kind != VertexKind::kInterior && edge.v1.kind != VertexKind::kInterior;
+  return needs_border && !edge.is_border ? Freedom::kNone : freedom(edge.v0.kind, edge.v1.kind);
+}
+
+bool has_fixed_height(const EdgeEnd& end, const PlacementRules& rules) {
+  return rules.placement == Placement::kSubset || end.kind == VertexKind::kLocked;
+}
+
+double cost_at_end(const EdgeFrame& frame, bool at_second, const PlacementRules& rules) {
+  const PlanPoint p = at_second ? frame.d : PlanPoint{};
+  if (!has_fixed_height(at_second ? frame.edge.v1 : frame.edge.v0, rules)) return frame.error.at(p.x, p.y);
+  return frame.error.at(p.x, p.y, at_second ? frame.dz : 0);
 }
 
 // At an end of the edge: the plan position is kept, and the height too where the end's kind demands it.
-Candidate at_end(const EdgeFrame& edge, bool at_second, Placement placement) {
-  const EdgeEnd& end = at_second ? edge.v1 : edge.v0;
-  Candidate result;
-  result.position = end.position;
-  result.has_fixed_height = placement == Placement::kSubset || end.kind == VertexKind::kLocked;
-  result.height = result.has_fixed_height
-                      ? end.height
-                      : edge.v0.height + edge.error.height(at_second ? edge.dx : 0, at_second ? edge.dy : 0);
-  return result;
+Candidate at_end(const EdgeFrame& frame, bool at_second, const PlacementRules& rules) {
+  const EdgeEnd& end = at_second ? frame.edge.v1 : frame.edge.v0;
+  if (has_fixed_height(end, rules)) return {end.position, end.height, true};
+  const PlanPoint p = at_second ? frame.d : PlanPoint{};
+  return {end.position, frame.edge.v0.height + frame.error.height(p.x, p.y), false};
 }
 
-double cost_at_end(const EdgeFrame& edge, bool at_second, const Candidate& candidate) {
-  const double x = at_second ? edge.dx : 0;
-  const double y = at_second ? edge.dy : 0;
-  return candidate.has_fixed_height ? edge.error.at(x, y, candidate.height - edge.v0.height) : edge.error.at(x, y);
+Candidate at_plan(const EdgeFrame& frame, PlanPoint p) {
+  const auto to_lattice = [](std::int32_t from, double cells) {
+    return from + static_cast<std::int32_t>(std::floor(cells * kLatticePerCell + 0.5));
+  };
+  const EdgeEnd& v0 = frame.edge.v0;
+  return {{to_lattice(v0.position.x, p.x), to_lattice(v0.position.y, p.y)},
+          v0.height + frame.error.height(p.x, p.y),
+          false};
 }
 
-void add_ends(Candidates& result, const EdgeFrame& edge, Placement placement) {
-  const Candidate first = at_end(edge, false, placement);
-  const Candidate second = at_end(edge, true, placement);
-  const double cost_first = cost_at_end(edge, false, first);
-  const double cost_second = cost_at_end(edge, true, second);
-  if (result.n == 0) result.cost = std::min(cost_first, cost_second);
-  const bool second_is_better = cost_second < cost_first;
-  result.add(second_is_better ? second : first);
-  result.add(second_is_better ? first : second);
+// The best point between v0 and v1.
+PlanPoint on_segment(const EdgeFrame& frame, const PlacementRules& rules) {
+  const PlanError& e = frame.error;
+  const auto [dx, dy] = frame.d;
+  const double weight = e.szz * rules.slope_noise * rules.slope_noise * (dx * dx + dy * dy);
+  const double curvature = dx * (e.kxx * dx + 2 * e.kxy * dy) + dy * e.kyy * dy + weight;
+  const double rise = e.kx * dx + e.ky * dy + weight / 2;
+  const double t = curvature > 0 ? std::clamp(rise / curvature, 0.0, 1.0) : 0.5;
+  return {t * dx, t * dy};
 }
 
 // The minimum of the plan error, drawn to the middle of the edge where the quadric leaves it open: the
 // gradient of f(q) + weight * |q - middle|^2 vanishes. (Paper eq. 6-10 with a rank test would jump there.)
-std::array<double, 2> optimum(const EdgeFrame& edge, double slope_noise) {
-  const PlanError& e = edge.error;
+PlanPoint anywhere(const EdgeFrame& frame, const PlacementRules& rules) {
+  const PlanError& e = frame.error;
+  const auto [dx, dy] = frame.d;
   constexpr double kRelativeWeight = 1e-3;
-  const double weight = kRelativeWeight * (e.kxx + e.kyy) + e.szz * slope_noise * slope_noise;
+  const double weight = kRelativeWeight * (e.kxx + e.kyy) + e.szz * rules.slope_noise * rules.slope_noise;
   const double xx = e.kxx + weight;
   const double yy = e.kyy + weight;
-  const double rx = e.kx + weight * edge.dx / 2;
-  const double ry = e.ky + weight * edge.dy / 2;
-  const double determinant = xx * yy - e.kxy * e.kxy;
-  if (!(determinant > 0)) return {edge.dx / 2, edge.dy / 2};
-  return {(rx * yy - ry * e.kxy) / determinant, (ry * xx - rx * e.kxy) / determinant};
-}
-
-// The best fraction of the way from v0 to v1.
-double best_fraction(const EdgeFrame& edge, double slope_noise) {
-  const PlanError& e = edge.error;
-  const double length2 = edge.dx * edge.dx + edge.dy * edge.dy;
-  const double weight = e.szz * slope_noise * slope_noise * length2;
-  const double curvature = edge.dx * (e.kxx * edge.dx + 2 * e.kxy * edge.dy) + edge.dy * e.kyy * edge.dy + weight;
-  const double rise = e.kx * edge.dx + e.ky * edge.dy + weight / 2;
-  return curvature > 0 ? std::clamp(rise / curvature, 0.0, 1.0) : 0.5;
-}
-
-void add_on_segment(Candidates& result, const EdgeFrame& edge, double slope_noise) {
-  const double t = best_fraction(edge, slope_noise);
-  result.add(at_plan(edge, t * edge.dx, t * edge.dy));
-  result.cost = edge.error.at(t * edge.dx, t * edge.dy);
-}
-
-void add_anywhere(Candidates& result, const EdgeFrame& edge, double slope_noise) {
-  const auto [x, y] = optimum(edge, slope_noise);
+  const double rx = e.kx + weight * dx / 2;
+  const double ry = e.ky + weight * dy / 2;
+  const double inverse = 1 / (xx * yy - e.kxy * e.kxy);
+  const PlanPoint p{(rx * yy - ry * e.kxy) * inverse, (ry * xx - rx * e.kxy) * inverse};
   // Farther off than the edge is long it hardly ever lies in the kernel, and lattice numbers have an end.
-  const double reach = 2 * (std::abs(edge.dx) + std::abs(edge.dy));
-  if (!(std::abs(x) <= reach && std::abs(y) <= reach)) {
-    add_on_segment(result, edge, slope_noise);
-    return;
-  }
-  result.add(at_plan(edge, x, y));
-  result.cost = edge.error.at(x, y);
+  const double reach = 2 * (std::abs(dx) + std::abs(dy));
+  const bool is_near = std::abs(p.x) <= reach && std::abs(p.y) <= reach;  // false for NaN
+  return is_near ? p : on_segment(frame, rules);
+}
+
+PlanPoint best_point(const EdgeFrame& frame, Freedom free, const PlacementRules& rules) {
+  const bool is_bound = free == Freedom::kAlong || rules.placement == Placement::kSegment;
+  return is_bound ? on_segment(frame, rules) : anywhere(frame, rules);
 }
 
 }  // namespace
 
-Candidates place(const EdgeEnd& v0, const EdgeEnd& v1, bool is_border_edge, Placement placement,
-                 double slope_noise) {
+double edge_cost(const Edge& edge, const PlacementRules& rules) {
+  const Freedom free = freedom_of(edge);
+  if (free == Freedom::kNone) return std::numeric_limits<double>::infinity();
+  const EdgeFrame frame(edge);
+  if (free == Freedom::kAtFirst || free == Freedom::kAtSecond)
+    return cost_at_end(frame, free == Freedom::kAtSecond, rules);
+  if (rules.placement == Placement::kSubset)
+    return std::min(cost_at_end(frame, false, rules), cost_at_end(frame, true, rules));
+  const PlanPoint p = best_point(frame, free, rules);
+  return frame.error.at(p.x, p.y);
+}
+
+Candidates place(const Edge& edge, const PlacementRules& rules) {
   Candidates result;
-  const Freedom free = freedom(v0.kind, v1.kind);
-  const bool needs_border = v0.kind != VertexKind::kInterior && v1.kind != VertexKind::kInterior;
-  if (free == Freedom::kNone || (needs_border && !is_border_edge)) return result;
-  const EdgeFrame edge(v0, v1);
+  const Freedom free = freedom_of(edge);
+  if (free == Freedom::kNone) return result;
+  const EdgeFrame frame(edge);
   if (free == Freedom::kAtFirst || free == Freedom::kAtSecond) {
-    const bool at_second = free == Freedom::kAtSecond;
-    result.add(at_end(edge, at_second, placement));
-    result.cost = cost_at_end(edge, at_second, result.list[0]);
+    result.add(at_end(frame, free == Freedom::kAtSecond, rules));
     return result;
   }
-  if (placement != Placement::kSubset) {
-    if (free == Freedom::kAlong || placement == Placement::kSegment) {
-      add_on_segment(result, edge, slope_noise);
-    } else {
-      add_anywhere(result, edge, slope_noise);
-    }
-  }
-  add_ends(result, edge, placement);
+  if (rules.placement != Placement::kSubset) result.add(at_plan(frame, best_point(frame, free, rules)));
+  const bool second_first = cost_at_end(frame, true, rules) < cost_at_end(frame, false, rules);
+  result.add(at_end(frame, second_first, rules));
+  result.add(at_end(frame, !second_first, rules));
   return result;
 }
 

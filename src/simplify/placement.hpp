@@ -20,7 +20,6 @@ struct Candidate {
 struct Candidates {
   std::array<Candidate, 3> list;
   int n = 0;
-  double cost = 0;  // quadric error of the first
 
   void add(const Candidate& candidate) { list[static_cast<std::size_t>(n++)] = candidate; }
 };
@@ -33,10 +32,25 @@ struct EdgeEnd {
   const VerticalQuadric* quadric = nullptr;
 };
 
-/// The candidates of the edge (v0, v1) under the rules of the vertex kinds. `is_border_edge` tells whether it
-/// has one triangle only. `slope_noise`: a slope (height units per cell) that means nothing at the tolerance;
-/// where the surface is flatter than that, the new vertex keeps to the middle of the edge.
-Candidates place(const EdgeEnd& v0, const EdgeEnd& v1, bool is_border_edge, Placement placement,
-                 double slope_noise);
+/// An edge as its placement sees it.
+struct Edge {
+  EdgeEnd v0;
+  EdgeEnd v1;
+  bool is_border = false;  // has one triangle only
+};
+
+struct PlacementRules {
+  Placement placement = Placement::kOptimal;
+  // A slope (height units per cell) that means nothing at the tolerance: where the surface is flatter than that,
+  // the new vertex keeps to the middle of the edge.
+  double slope_noise = 0;
+};
+
+/// The quadric error of the edge's new vertex where it is least under the rules of the vertex kinds; infinity
+/// when the edge never collapses.
+double edge_cost(const Edge& edge, const PlacementRules& rules);
+
+/// Where to try to put the new vertex.
+Candidates place(const Edge& edge, const PlacementRules& rules);
 
 }  // namespace tinsmith

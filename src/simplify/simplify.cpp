@@ -28,59 +28,83 @@ struct OuterEdge {
   std::int32_t b;
 };
 
-// A vertex waits in the queue under the cost of its best edge.
-struct Waiting {
-  std::int32_t vertex;
-  std::uint32_t version;
-};
-
 class Simplifier {
  public:
   Simplifier(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options)
       : mesh_(mesh),
         samples_(samples),
         options_(options),
-        slope_noise_(std::max(0.01 * options.tolerance, 1e-9)),
+        rules_{options.placement, std::max(0.01 * options.tolerance, 1e-9)},
         quadric_(mesh.position.size()),
-        version_(mesh.position.size(), 0),
-        best_(mesh.position.size(), kNone),
-        refused_at_(mesh.origin.size(), kNeverRefused),
+        vertex_(mesh.position.size()),
+        edge_(mesh.origin.size()),
         mark_(mesh.position.size(), 0) {}
 
   SimplifyCounts run() {
     for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
-      if (mesh_.is_alive(v)) sum_quadric(v);
-    }
-    for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
       if (mesh_.is_alive(v) && !(options_.only_fresh && mesh_.was_free[at(v)])) queue_best(v);
     }
-    Waiting waiting{};
+    std::int32_t v = kNone;
     std::size_t bucket = 0;
-    while (queue_.pop(waiting, bucket)) {
-      if (version_[at(waiting.vertex)] == waiting.version && mesh_.is_alive(waiting.vertex))
-        try_best(waiting.vertex, bucket);
+    while (queue_.pop(v, bucket)) {
+      vertex_[at(v)].is_queued = false;
+      if (mesh_.is_alive(v)) try_best(v, bucket);
     }
     return counts_;
   }
 
  private:
-  static constexpr std::uint64_t kNeverRefused = std::numeric_limits<std::uint64_t>::max();
+  using Queue = BucketQueue<std::int32_t>;
+  static constexpr std::size_t kNoBucket = std::numeric_limits<std::size_t>::max();
+  static constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 
-  // ---- the queue
+  struct VertexState {
+    std::uint32_t version = 0;  // grows when the star changes
+    std::uint32_t quadric_version = kNever;
+    std::uint32_t best_version = kNever;  // own version when the best edge was found
+    std::int32_t best = kNone;            // halfedge of the cheapest edge not refused
+    bool is_queued = false;
+  };
+
+  // Valid while the sum of the versions of the edge's ends is the one noted.
+  struct EdgeState {
+    std::uint32_t refused_at = kNever;
+    std::uint32_t cost_at = kNever;
+    float cost = 0;
+  };
+
+  // ---- the queue: each vertex waits under the cost of its best edge. A vertex whose star has changed keeps
+  // its place and is looked at anew when its turn comes: costs mostly grow, and many change several times.
 
   // An edge is refused until one of its ends changes: then the sum of their versions has grown.
-  std::uint64_t edge_version(std::int32_t h) const {
-    return std::uint64_t{version_[at(mesh_.origin[at(h)])]} + version_[at(mesh_.destination(h))];
+  std::uint32_t edge_version(std::int32_t h) const {
+    return vertex_[at(mesh_.origin[at(h)])].version + vertex_[at(mesh_.destination(h))].version;
   }
   std::int32_t edge_of(std::int32_t h) const { return std::max(h, mesh_.twin[at(h)]); }
 
-  EdgeEnd end(std::int32_t v) const {
+  EdgeEnd end(std::int32_t v) {
+    VertexState& state = vertex_[at(v)];
+    if (state.quadric_version != state.version) {
+      sum_quadric(v);
+      state.quadric_version = state.version;
+    }
     return {mesh_.position[at(v)], mesh_.height[at(v)], mesh_.kind[at(v)], &quadric_[at(v)]};
   }
 
-  Candidates candidates(std::int32_t h) const {
-    return place(end(mesh_.origin[at(h)]), end(mesh_.destination(h)), mesh_.is_border_edge(h), options_.placement,
-                 slope_noise_);
+  Edge edge(std::int32_t h) {
+    return {end(mesh_.origin[at(h)]), end(mesh_.destination(h)), mesh_.is_border_edge(h)};
+  }
+
+  bool is_refused(std::int32_t h) const { return edge_[at(edge_of(h))].refused_at == edge_version(h); }
+
+  float cost(std::int32_t h) {
+    EdgeState& state = edge_[at(edge_of(h))];
+    const std::uint32_t version = edge_version(h);
+    if (state.cost_at != version) {
+      state.cost_at = version;
+      state.cost = static_cast<float>(edge_cost(edge(h), rules_));
+    }
+    return state.cost;
   }
 
   template <class F>
@@ -94,43 +118,53 @@ class Simplifier {
     if (mesh_.turn(last) == kNone) f(WindowMesh::previous(last));
   }
 
-  void queue_best(std::int32_t v) {
+  // The bucket of the cheapest edge of v that is not refused; kNoBucket when there is none.
+  std::size_t find_best(std::int32_t v) {
     float best_cost = std::numeric_limits<float>::infinity();
     std::int32_t best = kNone;
     for_each_edge(v, [&](std::int32_t h) {
-      if (refused_at_[at(edge_of(h))] == edge_version(h)) return;
-      const Candidates c = candidates(h);
-      if (c.n == 0) return;
-      const auto cost = static_cast<float>(c.cost);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = h;
-      }
+      if (is_refused(h)) return;
+      const float now = cost(h);
+      if (!(now < best_cost)) return;
+      best_cost = now;
+      best = h;
     });
-    best_[at(v)] = best;
-    if (best != kNone) queue_.push(queue_.bucket_of(best_cost), {v, version_[at(v)]});
+    vertex_[at(v)].best = best;
+    vertex_[at(v)].best_version = vertex_[at(v)].version;
+    return best == kNone ? kNoBucket : Queue::bucket_of(best_cost);
   }
 
+  void queue(std::int32_t v, std::size_t bucket) {
+    if (bucket == kNoBucket || vertex_[at(v)].is_queued) return;
+    vertex_[at(v)].is_queued = true;
+    queue_.push(bucket, v);
+  }
+  void queue_best(std::int32_t v) { queue(v, find_best(v)); }
+
   void try_best(std::int32_t v, std::size_t bucket) {
-    const std::int32_t h = best_[at(v)];
-    const bool is_stale = refused_at_[at(edge_of(h))] == edge_version(h);
-    const Candidates c = is_stale ? Candidates{} : candidates(h);
-    if (is_stale || c.n == 0 || queue_.bucket_of(static_cast<float>(c.cost)) > bucket) {
-      queue_best(v);
-      return;
+    if (vertex_[at(v)].best_version != vertex_[at(v)].version) {
+      const std::size_t now = find_best(v);
+      if (now > bucket) {
+        queue(v, now);
+        return;
+      }
     }
-    if (collapse(h, c)) return;
-    refused_at_[at(edge_of(h))] = edge_version(h);
+    const std::int32_t h = vertex_[at(v)].best;
+    if (!is_refused(h) && Queue::bucket_of(cost(h)) <= bucket) {
+      if (collapse(h, bucket)) return;
+      edge_[at(edge_of(h))].refused_at = edge_version(h);
+    }
     queue_best(v);
   }
 
   // ---- one collapse
 
-  bool collapse(std::int32_t h, const Candidates& c) {
+  bool collapse(std::int32_t h, std::size_t bucket) {
     if (!gather_star(h) || !is_linked(h)) {
       ++counts_.refused_topology;
       return false;
     }
+    const Candidates c = place(edge(h), rules_);
     bool in_kernel = false;
     for (int i = 0; i < c.n; ++i) {
       const Candidate& candidate = c.list[static_cast<std::size_t>(i)];
@@ -138,7 +172,7 @@ class Simplifier {
       in_kernel = true;
       double height = 0;
       if (!find_height(candidate, height)) continue;
-      apply(h, {candidate.position, height});
+      apply(h, {candidate.position, height}, bucket);
       return true;
     }
     ++(in_kernel ? counts_.refused_bound : counts_.refused_half_space);
@@ -220,26 +254,32 @@ class Simplifier {
     return true;
   }
 
-  void apply(std::int32_t h, const Place& place) {
+  void apply(std::int32_t h, const Place& place, std::size_t bucket) {
     ++counts_.collapses;
     // The survivor is the end of the higher kind: a locked vertex is known elsewhere by its place.
     const std::int32_t v0 = mesh_.origin[at(h)];
     const std::int32_t v1 = mesh_.destination(h);
     const std::int32_t kept = mesh_.kind[at(v0)] > mesh_.kind[at(v1)] ? v0 : v1;
+    const std::int32_t gone = kept == v0 ? v1 : v0;
+    forget_sides(h);
+    if (!mesh_.is_border_edge(h)) forget_sides(mesh_.twin[at(h)]);
     collapse_edge(mesh_, h, kept, place);
-    ++version_[at(kept == v0 ? v1 : v0)];
-    refresh_around(kept);
+    // Higher than either was: edges that change hands must not look like what they were.
+    vertex_[at(kept)].version = std::max(vertex_[at(kept)].version, vertex_[at(gone)].version);
+    change(kept, bucket);
+    for_each_edge(kept, [&](std::int32_t e) { change(other_end(e, kept), bucket); });
   }
 
-  void refresh_around(std::int32_t v) {
-    ring_.clear();
-    ring_.push_back(v);
-    for_each_edge(v, [&](std::int32_t e) { ring_.push_back(other_end(e, v)); });
-    for (const std::int32_t u : ring_) {
-      ++version_[at(u)];
-      sum_quadric(u);
+  // The outer halfedges beside the triangle of h are about to be the two halves of one edge.
+  void forget_sides(std::int32_t h) {
+    for (const std::int32_t side : {WindowMesh::next(h), WindowMesh::previous(h)}) {
+      if (!mesh_.is_border_edge(side)) edge_[at(mesh_.twin[at(side)])] = {};
     }
-    for (const std::int32_t u : ring_) queue_best(u);
+  }
+
+  void change(std::int32_t v, std::size_t bucket) {
+    ++vertex_[at(v)].version;
+    queue(v, bucket);
   }
 
   void sum_quadric(std::int32_t v) {
@@ -260,16 +300,14 @@ class Simplifier {
   WindowMesh& mesh_;
   const HeightGrid& samples_;
   const SimplifyOptions& options_;
-  double slope_noise_;
-  std::vector<VerticalQuadric> quadric_;   // by vertex
-  std::vector<std::uint32_t> version_;     // by vertex: grows when its star changes
-  std::vector<std::int32_t> best_;         // by vertex: the halfedge that it waits for
-  std::vector<std::uint64_t> refused_at_;  // by edge: the version in which it was refused
-  std::vector<std::uint32_t> mark_;        // by vertex, valid when equal to mark_now_
+  PlacementRules rules_;
+  std::vector<VerticalQuadric> quadric_;  // by vertex
+  std::vector<VertexState> vertex_;
+  std::vector<EdgeState> edge_;      // by the larger of its halfedges
+  std::vector<std::uint32_t> mark_;  // by vertex, valid when equal to mark_now_
   std::uint32_t mark_now_ = 0;
-  BucketQueue<Waiting> queue_;
+  Queue queue_;
   std::vector<OuterEdge> star_;
-  std::vector<std::int32_t> ring_;
   SimplifyCounts counts_;
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 // The start mesh keeps within this part of the tolerance where the hierarchy decides. Starting from every
 // sample gives as many triangles in the end and takes 3 to 8 times as long (DESIGN section 4).
-constexpr double kSelectFraction = 0.6;
+constexpr double kSelectFraction = 0.75;
 
 struct FaceMark {
   std::array<std::int32_t, 3> checked{kNone, kNone, kNone};  // the vertices that it had when it was measured
