@@ -53,7 +53,7 @@ double illumination(const Slope& slope, double exaggeration) {
 
 Colour lit(const Colour& tint, double light) {
   if (light < kSunUp) return mix(kShadow, tint, std::pow(light / kSunUp, 0.85));
-  return mix(tint, kHighlight, 0.75 * (light - kSunUp) / (1 - kSunUp));
+  return mix(tint, kHighlight, 0.6 * (light - kSunUp) / (1 - kSunUp));
 }
 
 double root_mean_square(const std::vector<Slope>& slopes) {

@@ -72,6 +72,8 @@ void draw_scale_bar(const Pen& pen, const Type& type, const std::array<double, 2
   const std::string label = metres >= 1000 ? fmt::format("{:g} km", metres / 1000) : fmt::format("{:g} m", metres);
   const double x = corner[0] + type.size;
   const double y = corner[1] - type.size;
+  set_type(pen, type.size * 0.9, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_line_join(pen.get(), CAIRO_LINE_JOIN_ROUND);
   for (const bool halo : {true, false}) {
     set_ink(pen, halo ? Colour{1, 1, 1} : kInk, halo ? 0.7 : 1);
     cairo_set_line_width(pen.get(), type.size * (halo ? 0.40 : 0.14));

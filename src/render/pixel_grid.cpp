@@ -66,6 +66,19 @@ void set_weighted_mean(PixelGrid& pixels, std::size_t i, const Footprint& f, con
   pixels.coverage[i] = static_cast<float>(weight / all);
 }
 
+void widen_range(PixelGrid& pixels, const std::vector<double>& heights) {
+  for (const double z : heights) {
+    if (z < pixels.lowest) pixels.lowest = z;
+    if (z > pixels.highest) pixels.highest = z;
+  }
+}
+
+void to_metres(PixelGrid& pixels, double metres_per_vertical_unit) {
+  for (double& z : pixels.value) z *= metres_per_vertical_unit;
+  pixels.lowest *= metres_per_vertical_unit;
+  pixels.highest *= metres_per_vertical_unit;
+}
+
 void set_largest(PixelGrid& pixels, std::size_t i, const Footprint& f, const HeightGrid& errors) {
   double largest = std::nan("");
   for (std::int32_t y = f.y0; y <= f.y1; ++y) {
@@ -89,12 +102,12 @@ PixelGrid sample_heights(const View& view, const RasterField& field, const Stage
   PixelGrid pixels(view.width, view.height);
   const auto density = samples_per_pixel(view, field.frame());
   const std::array<double, 2> radius{std::max(1.0, density[0]), std::max(1.0, density[1])};
-  const double metres = field.frame().metres_per_vertical_unit;
   const auto parts = tiles(view, density);
   for (std::size_t t = 0; t < parts.size(); ++t) {
     stage.report(static_cast<double>(t) / parts.size(), "hillshade");
     const PixelRect& tile = parts[t];
     const HeightGrid samples = field.read(samples_under(view, field.frame(), tile, radius, field));
+    widen_range(pixels, samples.z);
     for (int y = tile.y0; y < tile.y0 + tile.height; ++y) {
       for (int x = tile.x0; x < tile.x0 + tile.width; ++x) {
         const Footprint f = footprint(view, field, {x, y}, radius);
@@ -102,7 +115,7 @@ PixelGrid sample_heights(const View& view, const RasterField& field, const Stage
       }
     }
   }
-  for (double& z : pixels.value) z *= metres;
+  to_metres(pixels, field.frame().metres_per_vertical_unit);
   return pixels;
 }
 
@@ -118,6 +131,7 @@ PixelGrid mesh_heights(const View& view, const Tin& tin, double metres_per_verti
     const int n_rows = std::min(kMeshBand, view.height - y0);
     const HeightGrid places =
         heights_at(plan, {0, y0 * kPlacesPerSide, view.width * kPlacesPerSide, n_rows * kPlacesPerSide});
+    widen_range(pixels, places.z);
     for (int y = y0; y < y0 + n_rows; ++y) {
       for (int x = 0; x < view.width; ++x) {
         const double middle = (kPlacesPerSide - 1) / 2.0;
@@ -129,7 +143,7 @@ PixelGrid mesh_heights(const View& view, const Tin& tin, double metres_per_verti
       }
     }
   }
-  for (double& z : pixels.value) z *= metres_per_vertical_unit;
+  to_metres(pixels, metres_per_vertical_unit);
   return pixels;
 }
 

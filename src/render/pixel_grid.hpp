@@ -1,6 +1,7 @@
 #pragma once
 // One number for each pixel of a view: heights of the samples, heights of a mesh, errors of a mesh.
 
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct PixelGrid {
   int height = 0;
   std::vector<double> value;
   std::vector<float> coverage;
+  double lowest = std::numeric_limits<double>::infinity();  // of all that the pixels were made from
+  double highest = -std::numeric_limits<double>::infinity();
 
   PixelGrid(int w, int h)
       : width(w),

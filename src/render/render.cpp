@@ -62,10 +62,8 @@ std::vector<Panel> panels_for(const std::vector<Panel>& wanted, bool has_raster,
 }
 
 Extent extent_of(const Tin& tin) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Extent e{kInfinity, kInfinity, -kInfinity, -kInfinity};
-  for (const auto& v : tin.vertices)
-    e = {std::min(e[0], v[0]), std::min(e[1], v[1]), std::max(e[2], v[0]), std::max(e[3], v[1])};
+  Extent e = no_extent();
+  for (const auto& v : tin.vertices) e = grown(e, {v[0], v[1]});
   return e;
 }
 
@@ -86,8 +84,7 @@ GridFrame frame_of(const Tin& tin, const std::string& path, const InputOptions& 
   frame.radians_per_unit = units.radians_per_unit;
   frame.equatorial_radius = units.equatorial_radius;
   frame.flattening = units.flattening;
-  frame.metres_per_vertical_unit = options.vertical_unit.value_or(
-      units.metres_per_height.value_or(units.is_geographic ? 1 : units.metres_per_horizontal_unit));
+  frame.metres_per_vertical_unit = metres_per_height(units, options);
   return frame;
 }
 
@@ -110,18 +107,11 @@ Scene make_scene(const std::vector<std::string>& raster, const std::string& mesh
   return scene;
 }
 
-// "176 to 4487 m", of the heights in the picture.
+// "176 to 4487 m"
 std::string height_range(const PixelGrid& heights) {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (const double z : heights.value) {
-    if (std::isnan(z)) continue;
-    lowest = std::min(lowest, z);
-    highest = std::max(highest, z);
-  }
-  if (lowest > highest) return "no heights";
-  const int decimals = highest - lowest < 10 ? 2 : 0;
-  return fmt::format("{:.{}f} to {:.{}f} m", lowest, decimals, highest, decimals);
+  if (heights.lowest > heights.highest) return "no heights";
+  const int decimals = heights.highest - heights.lowest < 10 ? 2 : 0;
+  return fmt::format("{:.{}f} to {:.{}f} m", heights.lowest, decimals, heights.highest, decimals);
 }
 
 // 1234567 as "1 234 567".

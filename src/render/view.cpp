@@ -16,15 +16,6 @@ constexpr double kBlockSide = 2048;
 
 constexpr int kTileSide = 256;  // pixels
 
-Extent grow(Extent e, const std::array<double, 2>& p) {
-  return {std::min(e[0], p[0]), std::min(e[1], p[1]), std::max(e[2], p[0]), std::max(e[3], p[1])};
-}
-
-Extent nothing() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {kInfinity, kInfinity, -kInfinity, -kInfinity};
-}
-
 // Metres per CRS unit at CRS coordinates.
 std::array<double, 2> metres_per_unit_at(const GridFrame& frame, double x, double y) {
   const auto [column, row] = frame.to_grid(x, y);
@@ -35,6 +26,20 @@ std::array<double, 2> metres_per_unit_at(const GridFrame& frame, double x, doubl
 
 }  // namespace
 
+Extent no_extent() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {kInfinity, kInfinity, -kInfinity, -kInfinity};
+}
+
+Extent grown(const Extent& e, const std::array<double, 2>& p) {
+  return {std::min(e[0], p[0]), std::min(e[1], p[1]), std::max(e[2], p[0]), std::max(e[3], p[1])};
+}
+
+double metres_per_height(const CrsUnits& units, const InputOptions& options) {
+  if (options.vertical_unit) return *options.vertical_unit;
+  return units.metres_per_height.value_or(units.is_geographic ? 1 : units.metres_per_horizontal_unit);
+}
+
 std::array<double, 2> View::to_crs(double px, double py) const {
   return {extent[0] + px * units_per_pixel_x, extent[3] - py * units_per_pixel_y};
 }
@@ -44,9 +49,9 @@ std::array<double, 2> View::to_pixel(double x, double y) const {
 }
 
 Extent grid_extent(const GridFrame& frame, std::int32_t width, std::int32_t height) {
-  Extent extent = nothing();
+  Extent extent = no_extent();
   for (const double column : {-0.5, width - 0.5})
-    for (const double row : {-0.5, height - 0.5}) extent = grow(extent, frame.to_crs(column, row));
+    for (const double row : {-0.5, height - 0.5}) extent = grown(extent, frame.to_crs(column, row));
   return extent;
 }
 
@@ -93,11 +98,11 @@ std::vector<PixelRect> tiles(const View& view, const std::array<double, 2>& samp
 
 GridRect samples_under(const View& view, const GridFrame& frame, const PixelRect& tile,
                        const std::array<double, 2>& radius, const HeightField& field) {
-  Extent covered = nothing();  // in columns and rows
+  Extent covered = no_extent();  // in columns and rows
   for (const int px : {tile.x0, tile.x0 + tile.width}) {
     for (const int py : {tile.y0, tile.y0 + tile.height}) {
       const auto [x, y] = view.to_crs(px, py);
-      covered = grow(covered, frame.to_grid(x, y));
+      covered = grown(covered, frame.to_grid(x, y));
     }
   }
   const auto clip = [](double value, std::int32_t count) {

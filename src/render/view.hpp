@@ -4,13 +4,19 @@
 #include <array>
 #include <vector>
 
+#include "geodesy/crs.hpp"
 #include "geodesy/grid_frame.hpp"
 #include "samples/height_grid.hpp"
+#include "tinsmith/options.hpp"
 
 namespace tinsmith {
 
 /// West, south, east, north in CRS coordinates.
 using Extent = std::array<double, 4>;
+
+/// The extent that holds nothing, and the smallest one that holds a point too.
+Extent no_extent();
+Extent grown(const Extent& extent, const std::array<double, 2>& point);
 
 /// A rectangle of pixels.
 struct PixelRect {
@@ -32,6 +38,10 @@ struct View {
   std::array<double, 2> to_crs(double px, double py) const;
   std::array<double, 2> to_pixel(double x, double y) const;
 };
+
+/// Metres per unit of a mesh's heights: as the options say, else its CRS; a CRS that is silent about heights
+/// counts them like its horizontal lengths.
+double metres_per_height(const CrsUnits& units, const InputOptions& options);
 
 /// The outline of all cells of a grid of width x height samples.
 Extent grid_extent(const GridFrame& frame, std::int32_t width, std::int32_t height);

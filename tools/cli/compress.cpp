@@ -1,0 +1,189 @@
+// tinsmith compress: DEM in, certified TIN out.
+
+#include "tinsmith/compress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <thread>
+
+#include "compress_summary.hpp"
+#include "input_flags.hpp"
+#include "inputs.hpp"
+#include "io/mesh_file.hpp"
+#include "progress_bar.hpp"
+#include "report.hpp"
+#include "text.hpp"
+#include "tinsmith/error.hpp"
+#include "tinsmith/verify.hpp"
+#include "verbs.hpp"
+
+namespace tinsmith::cli {
+namespace {
+
+constexpr const char* kManual = R"(tinsmith compress: DEM rasters into a TIN with a certified largest error.
+
+usage: tinsmith compress INPUT... OUTPUT --max-error M | --triangles N | --ratio R [options]
+
+INPUT are rasters that GDAL reads; several are one mosaic, if their CRS and steps match and their origins are a
+whole number of steps apart. OUTPUT is a mesh, its format by extension: .ply (binary, doubles), .obj, .2dm (opens
+in QGIS), .glb (glTF 2.0, Y up). Coordinates are those of the input's CRS (.glb: metres; its extras hold the CRS).
+The written file is measured against every valid sample (see tinsmith verify --help), and that is reported.
+
+when to stop, exactly one of:
+  --max-error M        no sample is farther than M metres from the surface, vertically; 0 or more
+  --triangles N        at most N triangles, with the least error that reaches it
+  --ratio R            the same as a fraction of the full grid's triangles, above 0, at most 1
+
+options:
+  --placement P        where a vertex may lie: optimal (anywhere), segment (on the collapsed edge) or subset
+                       (every vertex is a sample) (default optimal)
+  --window T           samples along a window's side (default {}); may change the result a little
+  --threads N          0: as many as the machine has (default 0); never changes the result
+)" TINSMITH_INPUT_MANUAL
+                                R"(  --no-verify          don't measure the written file
+  --json FILE          the report as one JSON object; - prints it to standard output and nothing else
+  --quiet              no progress bar, no remarks
+  --verbose            each round's triangles and seconds, and the whole certificate
+
+Cells are taken as samples at their centres; cells with a void at a corner become holes. Heights and tolerances in
+the report are metres, whatever the raster's units. The bytes written depend on the inputs and options only.
+
+examples:
+  tinsmith compress dem.tif dem.ply --max-error 5
+  tinsmith compress north.tif south.tif both.glb --ratio 0.01
+  tinsmith compress dem.vrt dem.2dm --max-error 0.5 --bbox 380000 5090000 390000 5100000 --json report.json
+
+exit codes: 0 done; 1 the certificate does not hold, or there is no such result; 2 wrong usage; 3 an input can't be
+used; 4 an output can't be written; 5 memory or the format does not suffice; 130 interrupted. Unless the exit code
+is 0 or 1, what stood at OUTPUT before still stands there.
+)";
+
+struct Flags {
+  std::vector<std::string> files;
+  std::optional<double> max_error;
+  std::optional<double> triangles;
+  std::optional<double> ratio;
+  std::string placement = "optimal";
+  int window = CompressOptions().window;
+  int threads = CompressOptions().threads;
+  InputFlags input;
+  bool no_verify = false;
+  std::string json;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+void require_one_stop(const Flags& flags) {
+  const int n_stops = (flags.max_error ? 1 : 0) + (flags.triangles ? 1 : 0) + (flags.ratio ? 1 : 0);
+  if (n_stops == 0)
+    throw UsageError(
+        "compress: when to stop? give --max-error METRES, --triangles N or --ratio R, for example "
+        "--max-error 5");
+  if (n_stops > 1) throw UsageError("compress: give only one of --max-error, --triangles and --ratio");
+  if (flags.max_error) require_tolerance("--max-error", *flags.max_error);
+}
+
+Placement to_placement(const std::string& name) {
+  static const std::map<std::string, Placement> kPlacements{
+      {"optimal", Placement::kOptimal}, {"segment", Placement::kSegment}, {"subset", Placement::kSubset}};
+  const auto placement = kPlacements.find(name);
+  if (placement == kPlacements.end())
+    throw UsageError(fmt::format("--placement {}: there is no such; use optimal, segment or subset", name));
+  return placement->second;
+}
+
+CompressOptions to_options(const Flags& flags) {
+  require_one_stop(flags);
+  CompressOptions options;
+  options.max_error = flags.max_error;
+  options.triangles = flags.triangles;
+  options.ratio = flags.ratio;
+  options.placement = to_placement(flags.placement);
+  options.window = flags.window;
+  options.threads = flags.threads;
+  return options;
+}
+
+// All that can be found wrong with the outputs before the work.
+void require_usable_outputs(const std::vector<std::string>& inputs, const std::string& output,
+                            const std::string& json) {
+  require_mesh_extension(output);
+  require_other_than_inputs(output, inputs);
+  require_writable(output);
+  if (json.empty() || json == "-") return;
+  require_other_than_inputs(json, inputs);
+  require_other_than_inputs(json, {output});
+  require_writable(json);
+}
+
+int threads_used(int asked) {
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+void add_compression(Json& report, const CompressReport& compressed, const std::string& output) {
+  report["samples"] = compressed.samples;
+  report["vertices"] = compressed.vertices;
+  report["triangles"] = compressed.triangles;
+  report["tolerance"] = compressed.tolerance;
+  report["windows"] = compressed.windows;
+  report["bytes"] = std::filesystem::file_size(output);
+  report["full_triangles"] = compressed.full_triangles;
+  report["start_triangles"] = compressed.start_triangles;
+  report["round_triangles"] = compressed.round_triangles;
+  report["round_seconds"] = compressed.round_seconds;
+  report["remarks"] = compressed.remarks;
+}
+
+int compress_rasters(Flags flags) {
+  const std::string output = flags.files.back();
+  flags.files.pop_back();
+  const InputOptions input_options = to_input_options(flags.input);
+  CompressOptions options = to_options(flags);
+  require_rasters(flags.files, "tinsmith compress INPUT... OUTPUT");
+  require_usable_outputs(flags.files, output, flags.json);
+  const OpenedInputs inputs = open_inputs(flags.files, input_options);
+  print_remarks(inputs.remarks, flags.quiet);
+  options.progress = make_progress(flags.quiet, inputs.n_samples);
+  const CompressReport compressed = compress(flags.files, output, input_options, options);
+  Json report = empty_report(flags.files, output);
+  report["threads"] = threads_used(flags.threads);
+  report["seconds"] = resources_so_far().seconds;
+  add_compression(report, compressed, output);
+  if (!flags.no_verify) {
+    add_certificate(report, verify(flags.files, output, input_options, options.progress), compressed.tolerance);
+    report["verify_seconds"] = resources_so_far().seconds - report["seconds"].get<double>();
+  }
+  options.progress = {};  // ends the line of the bar
+  report["peak_memory_bytes"] = resources_so_far().peak_memory_bytes;
+  if (!flags.json.empty()) write_json(report, flags.json);
+  if (flags.json != "-") print_summary(report, flags.verbose);
+  return flags.no_verify ? 0 : verdict(report, output);
+}
+
+}  // namespace
+
+void add_compress(CLI::App& program, Run& run) {
+  CLI::App& verb = *program.add_subcommand("compress");
+  set_manual(verb, fmt::format(kManual, CompressOptions().window));
+  auto flags = std::make_shared<Flags>();
+  verb.add_option("files", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
+  verb.add_option("--max-error", flags->max_error);
+  verb.add_option("--triangles", flags->triangles);
+  verb.add_option("--ratio", flags->ratio);
+  verb.add_option("--placement", flags->placement);
+  verb.add_option("--window", flags->window);
+  verb.add_option("--threads", flags->threads);
+  add_input_flags(verb, flags->input);
+  verb.add_flag("--no-verify", flags->no_verify);
+  verb.add_option("--json", flags->json);
+  verb.add_flag("--quiet", flags->quiet);
+  verb.add_flag("--verbose", flags->verbose);
+  verb.callback([flags, &run] { run = [flags] { return compress_rasters(*flags); }; });
+}
+
+}  // namespace tinsmith::cli

@@ -1,0 +1,30 @@
+#include "inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "io/mesh_file.hpp"
+#include "io/raster_field.hpp"
+#include "text.hpp"
+#include "tinsmith/error.hpp"
+
+namespace tinsmith::cli {
+
+OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options) {
+  const RasterField field(paths, options);
+  return {static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height()), field.remarks()};
+}
+
+void print_remarks(const std::vector<std::string>& remarks, bool quiet) {
+  if (quiet) return;
+  for (const std::string& remark : remarks) std::fprintf(stderr, "tinsmith: %s\n", in_one_line(remark).c_str());
+}
+
+void require_rasters(const std::vector<std::string>& paths, const char* order) {
+  for (const std::string& path : paths)
+    if (is_mesh_path(path))
+      throw UsageError(fmt::format("{}: a mesh where a raster belongs; the order is {}", path, order));
+}
+
+}  // namespace tinsmith::cli

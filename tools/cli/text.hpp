@@ -1,0 +1,31 @@
+#pragma once
+// Words and numbers for people.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+namespace tinsmith::cli {
+
+/// --help prints this text, and nothing that CLI11 makes up.
+void set_manual(CLI::App& app, std::string manual);
+
+/// Line ends as spaces, and none at the end.
+std::string in_one_line(std::string text);
+
+/// 1234567 as "1 234 567".
+std::string grouped(std::uint64_t number);
+
+/// Five significant digits, no exponent for everyday sizes.
+std::string metres(double value);
+
+/// "0.42 s", "3 min 20 s".
+std::string duration(double seconds);
+
+/// "123 MB" (millions of bytes).
+std::string byte_size(std::uint64_t bytes);
+
+/// Throws OutputError when standard output did not take all that was printed.
+void require_written_results();
+
+}  // namespace tinsmith::cli

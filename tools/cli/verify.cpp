@@ -1,0 +1,109 @@
+// tinsmith verify: the certificate, measured anew.
+
+#include "tinsmith/verify.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "input_flags.hpp"
+#include "inputs.hpp"
+#include "progress_bar.hpp"
+#include "report.hpp"
+#include "text.hpp"
+#include "tinsmith/error.hpp"
+#include "verbs.hpp"
+
+namespace tinsmith::cli {
+namespace {
+
+constexpr const char* kManual =
+    R"(tinsmith verify: measures a TIN against every sample of its DEM.
+
+usage: tinsmith verify INPUT... MESH [--max-error M] [options]
+
+INPUT are the rasters that the mesh was made from, MESH is the .ply, .obj, .glb or .2dm file. The file is read
+as it is, and nothing of what made it is trusted. Prints a table of key, value and unit, and the verdict.
+
+options:
+  --max-error M        the tolerance that no sample may exceed, in metres, 0 or more
+)" TINSMITH_INPUT_MANUAL
+    R"(  --json FILE          the report as one JSON object; - prints it to standard output and nothing else
+  --quiet              no progress bar
+
+keys:
+  samples              valid samples: cells of the raster, at their centres
+  covered, uncovered   of those that a fully valid block of 2 x 2 samples has as a corner
+  overlapped           samples inside more than one triangle
+  max_error            largest |z_TIN - z_sample|, and max_error_column, max_error_row: where (from 0)
+  rmse, mean_error, p99_error   root mean square, mean (bias), and what 99 % of the samples do not exceed
+  folded               triangles without a positive area in plan
+  non_manifold_edges, non_manifold_vertices, t_junctions
+  area_plan, area_valid   of the triangles and of the valid cells, in plan, in square metres
+  components           parts of the mesh that no edge connects
+  rounding             what double precision alone may add to an error
+  Heights and errors are in metres, whatever the units of the raster.
+
+The mesh holds when no error exceeds the tolerance (if given), every coverable sample is covered once, no
+triangle is folded, the mesh is a manifold with border and without T-junctions, and its area is the valid area.
+
+examples:
+  tinsmith verify dem.tif dem.ply --max-error 10
+  tinsmith verify north.tif south.tif both.glb --json report.json
+
+exit codes: 0 it holds; 1 it does not, standard error says what; 2 wrong usage; 3 an input can't be used;
+4 the report can't be written; 5 out of memory; 130 interrupted
+)";
+
+struct Flags {
+  std::vector<std::string> files;
+  std::optional<double> max_error;
+  InputFlags input;
+  std::string json;
+  bool quiet = false;
+};
+
+int verify_mesh(Flags flags) {
+  const std::string mesh = flags.files.back();
+  flags.files.pop_back();
+  require_rasters(flags.files, "tinsmith verify INPUT... MESH");
+  if (flags.max_error) require_tolerance("--max-error", *flags.max_error);
+  const InputOptions options = to_input_options(flags.input);
+  if (!flags.json.empty() && flags.json != "-") {
+    require_other_than_inputs(flags.json, flags.files);
+    require_other_than_inputs(flags.json, {mesh});
+    require_writable(flags.json);
+  }
+  const OpenedInputs inputs = open_inputs(flags.files, options);
+  print_remarks(inputs.remarks, flags.quiet);
+  const Certificate certificate = verify(flags.files, mesh, options, make_progress(flags.quiet, inputs.n_samples));
+  Json report = empty_report(flags.files, mesh);
+  add_certificate(report, certificate, flags.max_error);
+  const Resources used = resources_so_far();
+  report["bytes"] = std::filesystem::file_size(mesh);
+  report["seconds"] = used.seconds;
+  report["peak_memory_bytes"] = used.peak_memory_bytes;
+  report["threads"] = 1;
+  if (!flags.json.empty()) write_json(report, flags.json);
+  if (flags.json != "-") {
+    print_table(report);
+    std::printf("%-22s %s\n", "verdict", report["holds"] ? "holds" : "does not hold");
+  }
+  return verdict(report, mesh);
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, Run& run) {
+  CLI::App& verb = *program.add_subcommand("verify");
+  set_manual(verb, kManual);
+  auto flags = std::make_shared<Flags>();
+  verb.add_option("files", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
+  verb.add_option("--max-error", flags->max_error);
+  add_input_flags(verb, flags->input);
+  verb.add_option("--json", flags->json);
+  verb.add_flag("--quiet", flags->quiet);
+  verb.callback([flags, &run] { run = [flags] { return verify_mesh(*flags); }; });
+}
+
+}  // namespace tinsmith::cli
