@@ -76,9 +76,7 @@ void interpret(const Words& words, Terrain& terrain, TerrainFileOptions& options
   if (!std::isfinite(terrain.amplitude)) throw UsageError("--amplitude: give metres");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Writes terrain from a seed as a GeoTIFF of any size; the same options, the same heights.");
   Words words;
   Terrain terrain;
@@ -91,15 +89,21 @@ int main(int argc, char** argv) {
   }
   GDALSetCacheMax64(std::int64_t{64} << 20);  // blocks are written once: no more need be held
   CPLSetErrorHandler(CPLQuietErrorHandler);   // what GDAL says becomes part of our one line
+  interpret(words, terrain, options);
+  write_terrain(words.output, terrain, options);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    interpret(words, terrain, options);
-    write_terrain(words.output, terrain, options);
+    return run(argc, argv);
   } catch (const Error& error) {
     std::fprintf(stderr, "make_terrain: %s\n", error.what());
     return error.exit_code();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_terrain: %s: %s\n", words.output.c_str(), error.what());
+    std::fprintf(stderr, "make_terrain: %s; check the folder and its free space\n", error.what());
     return 4;
   }
-  return 0;
 }

@@ -133,7 +133,7 @@ class Rags {
 
 bool is_void_of(const Terrain& t, Rags& rags, std::int32_t column, std::int32_t row) {
   switch (t.voids) {
-    case VoidKind::kNone:
+    case VoidKind::kNowhere:
       return false;
     case VoidKind::kSquare:
       return is_middle(column, t.width) && is_middle(row, t.height);
@@ -164,7 +164,7 @@ constexpr std::array<std::pair<std::string_view, TerrainKind>, 7> kTerrainNames{
 }};
 
 constexpr std::array<std::pair<std::string_view, VoidKind>, 8> kVoidNames{{
-    {"none", VoidKind::kNone},
+    {"none", VoidKind::kNowhere},
     {"square", VoidKind::kSquare},
     {"diagonal", VoidKind::kDiagonal},
     {"ragged", VoidKind::kRagged},

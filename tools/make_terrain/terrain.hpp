@@ -22,7 +22,7 @@ enum class TerrainKind {
 };
 
 enum class VoidKind {
-  kNone,
+  kNowhere,
   kSquare,    // one rectangle in the middle
   kDiagonal,  // every other sample along every 16th diagonal: rows of pinches, where two valid cells share a corner
               // only
@@ -35,7 +35,7 @@ enum class VoidKind {
 
 struct Terrain {
   TerrainKind kind = TerrainKind::kFractal;
-  VoidKind voids = VoidKind::kNone;
+  VoidKind voids = VoidKind::kNowhere;
   std::uint64_t seed = 1;      // of fractal and sea, and of the voids ragged and holes
   std::int32_t width = 1025;   // samples
   std::int32_t height = 1025;  // samples
