@@ -132,7 +132,7 @@ CaptionedPanel hillshade_panel(const Scene& scene, const PixelGrid& heights) {
 }
 
 CaptionedPanel wireframe_panel(const Scene& scene, const PixelGrid& heights) {
-  CaptionedPanel panel{draw_hillshade(scene.view, scene.frame, heights), "TIN",
+  CaptionedPanel panel{draw_hillshade(scene.view, scene.frame, heights), "TIN, wireframe",
                        fmt::format("{} triangles, {} vertices", grouped(scene.tin->triangles.size()),
                                    grouped(scene.tin->vertices.size())),
                        std::nullopt, std::nullopt};
