@@ -41,7 +41,7 @@ using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::
 class WindowTriangulation {
  public:
   WindowTriangulation(const HeightGrid& samples, const GridRect& window, const TriangulateOptions& options)
-      : samples_(samples), window_(window), options_(options) {}
+      : samples_(samples), window_(window), options_(options), aspect_(exact_aspect(options.aspect)) {}
 
   void insert_all(const std::vector<LatticePoint>& selected) {
     std::vector<Kernel::Point_2> points;
@@ -96,8 +96,15 @@ class WindowTriangulation {
     Cdt::Vertex_handle face_vertex;
   };
 
+  // Few bits, so that row * aspect is exact: points in line on the grid are in line for CGAL too, else it would
+  // make triangles of them that have no area.
+  static double exact_aspect(double aspect) {
+    constexpr double kSteps = 256;
+    return std::clamp(std::round(aspect * kSteps), 1.0, kSteps * kSteps) / kSteps;
+  }
+
   Kernel::Point_2 plan(LatticePoint p) const {
-    return {static_cast<double>(p.x - window_.x0), (p.y - window_.y0) * options_.aspect};
+    return {static_cast<double>(p.x - window_.x0), (p.y - window_.y0) * aspect_};
   }
   std::size_t index(LatticePoint p) const {
     return static_cast<std::size_t>(static_cast<std::int64_t>(p.y - window_.y0) * window_.width +
@@ -192,6 +199,7 @@ class WindowTriangulation {
   const HeightGrid& samples_;
   GridRect window_;
   TriangulateOptions options_;
+  double aspect_;
   Cdt cdt_;
   std::vector<LatticePoint> position_;      // by name: sample position
   std::vector<Cdt::Vertex_handle> handle_;  // by sample of the window, for the constraints
