@@ -159,6 +159,10 @@ class WindowTriangulation {
     const LatticePoint b = scaled(t[1]);
     const LatticePoint c = scaled(t[2]);
     const Plane plane = plane_through(a, height(t[0]), b, height(t[1]), c, height(t[2]));
+    // The plane meets its own corners but for the rounding, which inserting them again would not mend.
+    const auto is_corner = [&](LatticePoint p) {
+      return p == sample(t[0]) || p == sample(t[1]) || p == sample(t[2]);
+    };
     const TriangleRows rows(a, b, c);
     double limit = options_.tolerance;
     bool found = false;
@@ -166,7 +170,7 @@ class WindowTriangulation {
       const auto [first, last] = rows.columns(y);
       for (std::int32_t x = first; x <= last; ++x) {
         const double error = std::abs(samples_.at(x, y) - plane.at(x, y));
-        if (!(error > limit)) continue;
+        if (!(error > limit) || is_corner({x, y})) continue;
         limit = error;
         worst = {x, y};
         found = true;
