@@ -171,7 +171,7 @@ void add_compress(CLI::App& program, Run& run) {
   CLI::App& verb = *program.add_subcommand("compress");
   set_manual(verb, fmt::format(kManual, CompressOptions().window));
   auto flags = std::make_shared<Flags>();
-  verb.add_option("files", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
+  verb.add_option("INPUT... OUTPUT", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
   verb.add_option("--max-error", flags->max_error);
   verb.add_option("--triangles", flags->triangles);
   verb.add_option("--ratio", flags->ratio);

@@ -60,7 +60,7 @@ void add_info(CLI::App& program, Run& run) {
   CLI::App& verb = *program.add_subcommand("info");
   set_manual(verb, kManual);
   auto flags = std::make_shared<Flags>();
-  verb.add_option("file", flags->file)->required();
+  verb.add_option("FILE", flags->file)->required();
   add_input_flags(verb, flags->input);
   verb.add_option("--json", flags->json)->expected(0, 1)->default_str("-");
   verb.callback([flags, &run] { run = [flags] { return say_what_is_in(*flags); }; });

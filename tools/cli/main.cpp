@@ -49,10 +49,14 @@ int complain(const std::string& what, int exit_code) {
 }
 
 // Help and version are exceptions to CLI11; everything else that it throws is wrong usage.
-int answer(const CLI::App& program, const CLI::ParseError& error) {
+int answer(const CLI::App& program, const CLI::ParseError& error, const std::string& first_word) {
   if (error.get_exit_code() == 0) return program.exit(error);
   const auto verbs = program.get_subcommands();
-  const std::string verb = verbs.empty() ? "" : verbs.front()->get_name() + " ";
+  if (verbs.empty())
+    return complain((first_word.empty() ? "what to do?" : first_word + ": no such verb;") +
+                        " there are compress, verify, render and info; see tinsmith --help",
+                    kWrongUsage);
+  const std::string verb = verbs.front()->get_name() + " ";
   return complain(std::string(error.what()) + "; see tinsmith " + verb + "--help", kWrongUsage);
 }
 
@@ -69,7 +73,7 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return answer(program, error);
+    return answer(program, error, argc > 1 ? argv[1] : "");
   }
   catch_signals();
   const int exit_code = run();

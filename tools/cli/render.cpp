@@ -102,7 +102,9 @@ void add_render(CLI::App& program, Run& run) {
   CLI::App& verb = *program.add_subcommand("render");
   set_manual(verb, kManual);
   auto flags = std::make_shared<Flags>();
-  verb.add_option("files", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
+  verb.add_option("INPUT... MESH OUT.png", flags->files)
+      ->required()
+      ->expected(2, CLI::detail::expected_max_vector_size);
   verb.add_option("--panels", flags->panels)->delimiter(',')->allow_extra_args(false);
   verb.add_option("--width", flags->width);
   verb.add_option("--scale", flags->scale);

@@ -98,7 +98,7 @@ void add_verify(CLI::App& program, Run& run) {
   CLI::App& verb = *program.add_subcommand("verify");
   set_manual(verb, kManual);
   auto flags = std::make_shared<Flags>();
-  verb.add_option("files", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
+  verb.add_option("INPUT... MESH", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
   verb.add_option("--max-error", flags->max_error);
   add_input_flags(verb, flags->input);
   verb.add_option("--json", flags->json);

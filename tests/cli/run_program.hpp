@@ -1,0 +1,123 @@
+#pragma once
+// The real program, started as a user would, and what it said.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/raster_fixture.hpp"
+
+namespace tinsmith::test {
+
+struct Outcome {
+  int exit_code = -1;  // -1: ended by a signal
+  std::string out;
+  std::string err;
+};
+
+struct Limits {
+  std::optional<rlim_t> file_size;  // bytes: the disk is full when a file is as large
+  int signal_after_ms = 0;          // with SIGINT, once; 0: never
+};
+
+inline std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void send_output_to(const std::string& path, int descriptor) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(file, descriptor);
+  close(file);
+}
+
+class CliTest : public RasterTest {
+ protected:
+  /// The words of a command line after the program's name.
+  Outcome run(std::vector<std::string> words, const Limits& limits = {}) const {
+    words.insert(words.begin(), TINSMITH_BINARY_DIR "/tinsmith");
+    const pid_t child = fork();
+    if (child == 0) become_program(words, limits);
+    if (limits.signal_after_ms > 0) {
+      usleep(static_cast<useconds_t>(limits.signal_after_ms) * 1000);
+      kill(child, SIGINT);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(said("out")), text_of(said("err"))};
+  }
+
+  /// A smooth hill of size x size samples of 30 m.
+  std::string hill(const std::string& name, int size, const RasterRecipe& like = {}) const {
+    RasterRecipe recipe = like;
+    recipe.width = recipe.height = size;
+    recipe.type = GDT_Float32;
+    recipe.values.clear();
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x)
+        recipe.values.push_back(500 + 200 * std::sin(x * 0.11) * std::cos(y * 0.07) + 3 * std::sin(x * 1.7 + y));
+    return write(name, recipe);
+  }
+
+  /// Exit code, one line on standard error with these words, nothing on standard output.
+  void expect_complaint(const std::vector<std::string>& words, int exit_code, const std::vector<std::string>& says,
+                        const Limits& limits = {}) const {
+    const Outcome outcome = run(words, limits);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("tinsmith: ")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const std::string& word : says)
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in: " << outcome.err;
+  }
+
+  /// An input that compress can't use: exit code 3, and what stood at the output still stands there, alone.
+  void expect_unusable(const std::string& input, const std::vector<std::string>& says,
+                       const std::vector<std::string>& options = {}) const {
+    const std::string output = write_text("old.ply", "old");
+    const std::size_t n_files = files().size();
+    std::vector<std::string> words{"compress", input, output, "--max-error", "1"};
+    words.insert(words.end(), options.begin(), options.end());
+    expect_complaint(words, 3, says);
+    EXPECT_EQ(text_of(output), "old");
+    EXPECT_EQ(files().size(), n_files);
+  }
+
+  /// All in the test's folder but what the program said.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path("")))
+      if (!entry.path().filename().string().starts_with("said.")) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+ private:
+  std::string said(const char* stream) const { return path(std::string("said.") + stream); }
+
+  [[noreturn]] void become_program(const std::vector<std::string>& words, const Limits& limits) const {
+    send_output_to(said("out"), STDOUT_FILENO);
+    send_output_to(said("err"), STDERR_FILENO);
+    if (limits.file_size) {
+      const rlimit limit{*limits.file_size, *limits.file_size};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    execv(arguments.front(), arguments.data());
+    _exit(127);
+  }
+};
+
+}  // namespace tinsmith::test
