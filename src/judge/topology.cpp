@@ -38,7 +38,9 @@ struct EdgeUse {
   std::uint32_t high_vertex;
   std::uint32_t corner;
 
-  friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
+  friend bool operator<(const EdgeUse& a, const EdgeUse& b) {
+    return a.high_vertex != b.high_vertex ? a.high_vertex < b.high_vertex : a.corner < b.corner;
+  }
 };
 
 /// All uses of edges, those of one lower vertex together and sorted.

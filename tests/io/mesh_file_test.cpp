@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,7 @@
 namespace tinsmith {
 namespace {
 
-const std::vector<std::string> kExtensions{".ply", ".obj", ".glb", ".2dm"};
+constexpr std::array kExtensions{".ply", ".obj", ".glb", ".2dm"};
 
 double signed_area(const Tin& tin, const std::array<std::uint32_t, 3>& triangle) {
   const auto& [a, b, c] = triangle;
@@ -28,7 +29,7 @@ TEST(MeshFile, ReadsBackWhatWasWritten) {
   const TerrainMesh mesh = random_mesh(11, 40, 30);
   const auto [lowest, highest] = std::minmax_element(mesh.height.begin(), mesh.height.end());
   for (const GridFrame& frame : frames())
-    for (const std::string& extension : kExtensions) {
+    for (const std::string extension : kExtensions) {
       const std::string path = folder.file("mesh" + extension);
       write_mesh(path, mesh, frame);
       const Tin tin = read_mesh(path);
@@ -60,7 +61,7 @@ TEST(MeshFile, RoundsHeightsInGlbOnly) {
 TEST(MeshFile, WritesTheSameBytesUnderAnyName) {
   const ScratchFolder folder;
   const TerrainMesh mesh = random_mesh(5, 7, 9);
-  for (const std::string& extension : kExtensions) {
+  for (const std::string extension : kExtensions) {
     write_mesh(folder.file("one" + extension), mesh, frames()[0]);
     write_mesh(folder.file("two" + extension), mesh, frames()[0]);
     EXPECT_EQ(bytes_of(folder.file("one" + extension)), bytes_of(folder.file("two" + extension)));
@@ -72,7 +73,7 @@ TEST(MeshFile, CarriesTheCrs) {
   const TerrainMesh mesh = random_mesh(5, 2, 2);
   OGRSpatialReference expected;
   expected.importFromWkt(kUtm32);
-  for (const std::string& extension : kExtensions) {
+  for (const std::string extension : kExtensions) {
     write_mesh(folder.file("a" + extension), mesh, frames()[0]);
     OGRSpatialReference read;
     ASSERT_EQ(read.SetFromUserInput(read_mesh(folder.file("a" + extension)).crs_wkt.c_str()), OGRERR_NONE);
@@ -94,7 +95,7 @@ TEST(MeshFile, LeavesNoPrjOfAnEarlierMesh) {
 }
 
 TEST(MeshFile, KnowsItsExtensions) {
-  for (const std::string& extension : kExtensions) EXPECT_NO_THROW(require_mesh_extension("a" + extension));
+  for (const std::string extension : kExtensions) EXPECT_NO_THROW(require_mesh_extension("a" + extension));
   EXPECT_NO_THROW(require_mesh_extension("a.PLY"));
   for (const char* path : {"a", "a.stl", "a.ply.gz", ".ply", ""}) {
     EXPECT_THROW(require_mesh_extension(path), UsageError) << path;
@@ -106,7 +107,7 @@ TEST(MeshFile, KnowsItsExtensions) {
 TEST(MeshFile, RefusesEveryTruncation) {
   const ScratchFolder folder;
   const TerrainMesh mesh = random_mesh(3, 3, 2);
-  for (const std::string& extension : kExtensions) {
+  for (const std::string extension : kExtensions) {
     const std::string path = folder.file("a" + extension);
     write_mesh(path, mesh, frames()[0]);
     const std::string whole = bytes_of(path);
@@ -126,7 +127,7 @@ TEST(MeshFile, SurvivesFlippedBits) {
   const ScratchFolder folder;
   const TerrainMesh mesh = random_mesh(3, 3, 2);
   std::mt19937_64 random(20240607);
-  for (const std::string& extension : kExtensions) {
+  for (const std::string extension : kExtensions) {
     const std::string path = folder.file("a" + extension);
     write_mesh(path, mesh, frames()[0]);
     const std::string whole = bytes_of(path);
@@ -156,7 +157,7 @@ TEST(MeshFile, RefusesGarbage) {
   std::mt19937_64 random(7);
   std::string noise(5000, ' ');
   for (char& c : noise) c = static_cast<char>(random());
-  for (const std::string& extension : kExtensions) {
+  for (const std::string extension : kExtensions) {
     const std::string path = folder.file("a" + extension);
     for (const std::string& bytes : {std::string(), std::string("\n"), noise, std::string(3 << 20, 'v')}) {
       put_bytes(path, bytes);
@@ -186,7 +187,7 @@ TEST(MeshFile, KeepsTheOldFileWhenTheDiskIsFull) {
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
-  for (const std::string& extension : kExtensions) {
+  for (const std::string extension : kExtensions) {
     const std::string path = folder.file("a" + extension);
     write_mesh(path, small, frames()[0]);
     const std::string old = bytes_of(path);
@@ -203,7 +204,7 @@ TEST(MeshFile, KeepsTheOldFileWhenTheDiskIsFull) {
 
 TEST(MeshFile, NamesTheReasonWhenAFolderCannotBeWritten) {
   const ScratchFolder folder;
-  for (const std::string& extension : kExtensions) try {
+  for (const std::string extension : kExtensions) try {
       write_mesh(folder.file("nowhere/a" + extension), random_mesh(1, 1, 1), {});
       FAIL() << extension;
     } catch (const OutputError& error) {

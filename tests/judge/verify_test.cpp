@@ -48,7 +48,7 @@ Scene scene_with_an_error() {
   mesh_fully(scene);
   for (int y = 5; y < 8; ++y)
     for (int x = 1; x < 11; ++x) {
-      auto& v = scene.vertices[static_cast<std::size_t>(12 * y + x)];
+      auto& v = scene.vertices[std::size_t{12} * y + x];
       const double dx = ((7 * x + 3 * y) % 9 - 4) / 16.0;
       const double dy = ((5 * x + y) % 9 - 4) / 16.0;
       v = {v[0] + dx, v[1] + dy, v[2] + 2 * dx - 3 * dy};
