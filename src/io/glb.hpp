@@ -1,6 +1,11 @@
 #pragma once
 // glTF 2.0 binary, Y up: float32 positions that are exact in plan, about a local origin that the node carries
 // in double precision.
+//
+// World coordinates are glTF metres: X east, Y up, Z = -north, each the CRS coordinate times metres_per_unit (of
+// a geographic CRS: metres per degree at the middle of the mesh). The node's extras say how to undo that:
+//   crs_wkt, origin [x, y, z in CRS units], metres_per_unit [of x, y, z],
+//   geotransform [GDAL's six], origin_column, origin_row [the sample at the local origin].
 
 #include <string>
 
