@@ -59,7 +59,7 @@ require_packages() {
   [ -n "$missing" ] || return 0
   [ "$(id -u)" = 0 ] || command -v sudo >/dev/null ||
     die "missing packages, and neither root nor sudo to install them: $missing"
-  say "installing $(wc -w <<<"$missing") packages and what they need: $missing"
+  say "installing $missing(and what they need; once)"
   log=$(mktemp)
   # A first apt-get install may fail on stale lists only, so the lists are always fetched first.
   if ! { as_root apt-get update && as_root apt-get install -y --no-install-recommends $missing; } >"$log" 2>&1; then

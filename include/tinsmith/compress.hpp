@@ -14,16 +14,16 @@ namespace tinsmith {
 
 /// What a compression did. Heights and the tolerance are in metres.
 struct CompressReport {
-  double tolerance = 0;          // that the result was made with (found by search for triangles and ratio)
-  std::uint64_t samples = 0;     // valid samples
+  double tolerance = 0;       // that the result was made with (found by search for triangles and ratio)
+  std::uint64_t samples = 0;  // valid samples
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
-  std::uint64_t full_triangles = 0;    // of the full grid: two for each valid 2 x 2 block
-  std::uint64_t windows = 0;           // of round 0
-  std::uint64_t start_triangles = 0;   // after select and triangulate
+  std::uint64_t full_triangles = 0;            // of the full grid: two for each valid 2 x 2 block
+  std::uint64_t windows = 0;                   // of round 0
+  std::uint64_t start_triangles = 0;           // after select and triangulate
   std::vector<std::uint64_t> round_triangles;  // after each round
   std::vector<double> round_seconds;
-  std::vector<std::string> remarks;    // what the user should be told once
+  std::vector<std::string> remarks;  // what the user should be told once
 };
 
 /// Reads the rasters as one grid, compresses them and writes `output` (.ply .obj .glb .2dm). The bytes

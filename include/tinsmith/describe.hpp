@@ -14,6 +14,7 @@ namespace tinsmith {
 /// Names and values in a fixed order, ready to print: of a raster (size, type, CRS, steps in CRS units and
 /// metres, nodata, height range and valid share with their units) or of a mesh file (format, vertices,
 /// triangles, extent, height range, components, CRS). Throws InputError when it is neither.
-std::vector<std::pair<std::string, std::string>> describe(const std::string& path, const InputOptions& options = {});
+std::vector<std::pair<std::string, std::string>> describe(const std::string& path,
+                                                          const InputOptions& options = {});
 
 }  // namespace tinsmith

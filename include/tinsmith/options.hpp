@@ -12,10 +12,10 @@ namespace tinsmith {
 
 /// Which samples of the inputs count.
 struct InputOptions {
-  int band = 1;                                 // GDAL's numbering, from 1
-  std::optional<double> nodata;                 // overrides what the files declare; NaN is a value too
-  std::optional<std::array<double, 4>> bbox;    // west, south, east, north in the input's CRS: cell centres inside
-  std::optional<double> vertical_unit;          // metres per unit of height; overrides what the files declare
+  int band = 1;                               // GDAL's numbering, from 1
+  std::optional<double> nodata;               // overrides what the files declare; NaN is a value too
+  std::optional<std::array<double, 4>> bbox;  // west, south, east, north in the input's CRS: cell centres inside
+  std::optional<double> vertical_unit;        // metres per unit of height; overrides what the files declare
 };
 
 /// Where a collapsed edge's new vertex may lie.
@@ -27,13 +27,13 @@ enum class Placement {
 
 /// What a compression aims for and how. Exactly one of max_error, triangles and ratio must be set.
 struct CompressOptions {
-  std::optional<double> max_error;   // metres: largest vertical error against any sample
-  std::optional<double> triangles;   // at most so many triangles, with the least error that reaches it
-  std::optional<double> ratio;       // the same as a fraction (0 to 1] of the full grid's triangles
+  std::optional<double> max_error;  // metres: largest vertical error against any sample
+  std::optional<double> triangles;  // at most so many triangles, with the least error that reaches it
+  std::optional<double> ratio;      // the same as a fraction (0 to 1] of the full grid's triangles
   Placement placement = Placement::kOptimal;
-  int window = 256;                  // samples along a window's side; may change the result, never its guarantees
-  int threads = 0;                   // 0: as many as the machine has; never changes the result
-  Progress progress;                 // empty: silent
+  int window = 256;   // samples along a window's side; may change the result, never its guarantees
+  int threads = 0;    // 0: as many as the machine has; never changes the result
+  Progress progress;  // empty: silent
 };
 
 }  // namespace tinsmith

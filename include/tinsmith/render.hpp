@@ -18,10 +18,10 @@ enum class Panel {
 };
 
 struct RenderOptions {
-  std::vector<Panel> panels;     // empty: all that the inputs allow
-  int panel_width = 800;         // pixels; the height follows from the ground's proportions
-  std::optional<double> scale;   // metres at the ends of the error scale; default: the largest error
-  InputOptions input;            // band, nodata; its bbox also crops the picture
+  std::vector<Panel> panels;    // empty: all that the inputs allow
+  int panel_width = 800;        // pixels; the height follows from the ground's proportions
+  std::optional<double> scale;  // metres at the ends of the error scale; default: the largest error
+  InputOptions input;           // band, nodata; its bbox also crops the picture
   Progress progress;
 };
 

@@ -7,12 +7,12 @@
 
 // On in debug builds, tests and sanitizers. O(1).
 #ifdef TINSMITH_CHECKED
-#define TINSMITH_ASSERT(condition)                                                               \
-  do {                                                                                           \
-    if (!(condition)) {                                                                          \
-      std::fprintf(stderr, "%s:%d: broken invariant: %s\n", __FILE__, __LINE__, #condition);     \
-      std::abort();                                                                              \
-    }                                                                                            \
+#define TINSMITH_ASSERT(condition)                                                           \
+  do {                                                                                       \
+    if (!(condition)) {                                                                      \
+      std::fprintf(stderr, "%s:%d: broken invariant: %s\n", __FILE__, __LINE__, #condition); \
+      std::abort();                                                                          \
+    }                                                                                        \
   } while (false)
 #else
 #define TINSMITH_ASSERT(condition) static_cast<void>(0)
