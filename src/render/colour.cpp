@@ -22,6 +22,8 @@ constexpr std::array<Colour, 6> kLand{{{0.58, 0.68, 0.52},
                                        {0.84, 0.82, 0.82},
                                        {0.97, 0.98, 1.00}}};
 
+constexpr std::array<Colour, 3> kSeaFloor{{{0.80, 0.89, 0.93}, {0.58, 0.75, 0.85}, {0.35, 0.53, 0.70}}};
+
 // ColorBrewer's RdBu, turned round: readable to colour-blind eyes.
 constexpr std::array<Colour, 9> kBlueWhiteRed{{{0.13, 0.40, 0.67},
                                                {0.26, 0.58, 0.76},
@@ -40,6 +42,8 @@ Colour mix(const Colour& a, const Colour& b, double t) {
 }
 
 Colour hypsometric_tint(double t) { return along(kLand, t); }
+
+Colour bathymetric_tint(double t) { return along(kSeaFloor, t); }
 
 Colour diverging(double t) { return along(kBlueWhiteRed, (t + 1) / 2); }
 

@@ -16,6 +16,9 @@ Colour mix(const Colour& a, const Colour& b, double t);
 /// Of land by height, 0 (lowest) to 1 (highest): meadow, sand, rock, snow.
 Colour hypsometric_tint(double t);
 
+/// Of the sea floor by depth, 0 (surface) to 1 (deepest).
+Colour bathymetric_tint(double t);
+
 /// -1 blue, 0 white, 1 red; what lies beyond is taken to be at the end.
 Colour diverging(double t);
 

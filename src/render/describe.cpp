@@ -46,8 +46,8 @@ HeightRange range_of(const HeightField& field) {
 
 std::string heights(const HeightRange& range, double metres_per_vertical_unit) {
   if (range.n_valid == 0) return "none";
-  const std::string metres = fmt::format("{:.10g} to {:.10g} m", range.lowest * metres_per_vertical_unit,
-                                         range.highest * metres_per_vertical_unit);
+  std::string metres = fmt::format("{:.10g} to {:.10g} m", range.lowest * metres_per_vertical_unit,
+                                   range.highest * metres_per_vertical_unit);
   if (metres_per_vertical_unit == 1) return metres;
   return fmt::format("{:.10g} to {:.10g} units of {:.10g} m: {}", range.lowest, range.highest,
                      metres_per_vertical_unit, metres);

@@ -23,6 +23,10 @@ constexpr Colour kHighlight{1.00, 0.99, 0.94};
 constexpr double kSlopeThatReads = 0.12;
 constexpr double kMostExaggeration = 20;
 
+// A picture that goes deeper shows a sea floor: what lies below 0 is water. Land that dips below the sea's
+// level, as the Dead Sea's shore at -430 m, is no such thing.
+constexpr double kDeepSea = -1000;
+
 struct Slope {
   double east = 0;
   double north = 0;
@@ -56,6 +60,13 @@ Colour lit(const Colour& tint, double light) {
   return mix(tint, kHighlight, 0.6 * (light - kSunUp) / (1 - kSunUp));
 }
 
+Colour tint_of(double z, double lowest, double highest) {
+  const bool has_sea = lowest < kDeepSea;
+  if (has_sea && z < 0) return bathymetric_tint(z / lowest);
+  const double shore = has_sea ? 0 : lowest;
+  return hypsometric_tint(highest > shore ? (z - shore) / (highest - shore) : 0);
+}
+
 double root_mean_square(const std::vector<Slope>& slopes) {
   double sum = 0;
   for (const Slope& s : slopes) sum += s.east * s.east + s.north * s.north;
@@ -80,9 +91,8 @@ Surface draw_hillshade(const View& view, const GridFrame& frame, const PixelGrid
   }
   const double steepness = root_mean_square(slopes);
   const double exaggeration = steepness > 0 ? std::clamp(kSlopeThatReads / steepness, 1.0, kMostExaggeration) : 1;
-  const double range = highest > lowest ? highest - lowest : 1;
   return paint(heights, [&](std::size_t i) {
-    return lit(hypsometric_tint((heights.value[i] - lowest) / range), illumination(slopes[i], exaggeration));
+    return lit(tint_of(heights.value[i], lowest, highest), illumination(slopes[i], exaggeration));
   });
 }
 

@@ -101,19 +101,24 @@ Span span_on_row(const PlanTin& tin, const std::array<std::uint32_t, 3>& triangl
   return span;
 }
 
+// The integers from `first` to `last`, a little beyond them included, that lie in [begin, begin + count).
+std::array<std::int32_t, 2> positions_between(double first, double last, std::int32_t begin, std::int32_t count) {
+  const double end = static_cast<double>(begin) + count;
+  return {static_cast<std::int32_t>(std::clamp<double>(std::ceil(first - kSlack), begin, end)),
+          static_cast<std::int32_t>(std::clamp<double>(std::floor(last + kSlack), begin - 1.0, end - 1))};
+}
+
 void fill_triangle(const PlanTin& tin, const std::array<std::uint32_t, 3>& triangle, HeightGrid& heights) {
   const GridRect& rect = heights.rect;
   const Box box = box_of(tin, triangle);
-  const double first_row = std::max(std::ceil(box.y0 - kSlack), static_cast<double>(rect.y0));
-  const double last_row = std::min(std::floor(box.y1 + kSlack), rect.y0 + rect.height - 1.0);
-  for (double y = first_row; y <= last_row; ++y) {
-    const Span span = span_on_row(tin, triangle, std::clamp(y, box.y0, box.y1));
-    const double first = std::max(std::ceil(span.x0 - kSlack), static_cast<double>(rect.x0));
-    const double last = std::min(std::floor(span.x1 + kSlack), rect.x0 + rect.width - 1.0);
+  const auto [first_row, last_row] = positions_between(box.y0, box.y1, rect.y0, rect.height);
+  for (std::int32_t y = first_row; y <= last_row; ++y) {
+    const Span span = span_on_row(tin, triangle, std::clamp<double>(y, box.y0, box.y1));
+    const auto [first, last] = positions_between(span.x0, span.x1, rect.x0, rect.width);
     const double slope = span.x1 > span.x0 ? (span.z1 - span.z0) / (span.x1 - span.x0) : 0;
     double* const row = heights.z.data() + static_cast<std::size_t>(y - rect.y0) * rect.width;
-    for (double x = first; x <= last; ++x)
-      row[static_cast<std::size_t>(x - rect.x0)] = span.z0 + slope * (std::clamp(x, span.x0, span.x1) - span.x0);
+    for (std::int32_t x = first; x <= last; ++x)
+      row[x - rect.x0] = span.z0 + slope * (std::clamp<double>(x, span.x0, span.x1) - span.x0);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Pixels of a cairo image, set one by one.
 
+#include <cmath>
 #include <cstdint>
 
 #include "render/colour.hpp"
@@ -10,7 +11,7 @@ namespace tinsmith {
 
 /// As cairo keeps it in RGB24: blue in the low byte.
 inline std::uint32_t packed(const Colour& c) {
-  const auto byte = [](double v) { return static_cast<std::uint32_t>(v * 255 + 0.5); };
+  const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(v * 255)); };
   return byte(c.r) << 16U | byte(c.g) << 8U | byte(c.b);
 }
 

@@ -89,10 +89,10 @@ void require_one_stop(const Flags& flags) {
 }
 
 Placement to_placement(const std::string& name) {
-  static const std::map<std::string, Placement> kPlacements{
+  static const std::map<std::string, Placement> placements{
       {"optimal", Placement::kOptimal}, {"segment", Placement::kSegment}, {"subset", Placement::kSubset}};
-  const auto placement = kPlacements.find(name);
-  if (placement == kPlacements.end())
+  const auto placement = placements.find(name);
+  if (placement == placements.end())
     throw UsageError(fmt::format("--placement {}: there is no such; use optimal, segment or subset", name));
   return placement->second;
 }

@@ -21,8 +21,8 @@ std::optional<double> number(const std::string& text) {
 }
 
 double metres_per_unit(const std::string& name) {
-  static const std::map<std::string, double> kUnits{{"m", 1}, {"ft", 0.3048}, {"us-ft", 1200.0 / 3937}};
-  if (const auto unit = kUnits.find(name); unit != kUnits.end()) return unit->second;
+  static const std::map<std::string, double> units{{"m", 1}, {"ft", 0.3048}, {"us-ft", 1200.0 / 3937}};
+  if (const auto unit = units.find(name); unit != units.end()) return unit->second;
   const auto metres = number(name);
   if (!metres || !(*metres > 0) || !std::isfinite(*metres))
     throw UsageError(

@@ -18,6 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kRoomForWords = 105;  // columns of a terminal
 constexpr double kSecondsBetweenDraws = 0.1;
 constexpr double kSecondsBeforeForecast = 1;  // the first moments say little about the rest
 
@@ -35,14 +36,16 @@ std::string ruler(double fraction) {
   return text;
 }
 
-std::string rate(double samples_per_second) {
-  if (samples_per_second >= 1e6) return fmt::format("{:.1f} M samples/s", samples_per_second / 1e6);
-  return fmt::format("{:.0f} k samples/s", samples_per_second / 1e3);
-}
-
 int terminal_width() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+}
+
+// Of samples; a narrow terminal has room for the unit only.
+std::string rate(double samples_per_second, bool is_short) {
+  const char* const what = is_short ? "" : " samples";
+  if (samples_per_second >= 1e6) return fmt::format("{:.1f} M{}/s", samples_per_second / 1e6, what);
+  return fmt::format("{:.0f} k{}/s", samples_per_second / 1e3, what);
 }
 
 // One line for each stage, drawn over until the stage is done.
@@ -59,6 +62,7 @@ class ProgressBar {
       end_line();
       stage_ = stage;
       started_ = now;
+      started_at_ = fraction;
     } else if (fraction < 1 && seconds_between(drawn_, now) < kSecondsBetweenDraws) {
       return;
     }
@@ -68,15 +72,16 @@ class ProgressBar {
 
  private:
   void draw(double fraction, double seconds) {
-    std::string line = fmt::format("{:<10} {}", stage_, ruler(fraction));
-    if (n_samples_ > 0 && fraction > 0 && seconds > 0)
-      line += "  " + rate(fraction * static_cast<double>(n_samples_) / seconds);
+    const int width = terminal_width() - 1;
+    const double done = fraction - started_at_;
+    std::string line = fmt::format("{:<8} {}", stage_, ruler(fraction));
+    if (n_samples_ > 0 && done > 0 && seconds > 0)
+      line += "  " + rate(done * static_cast<double>(n_samples_) / seconds, width < kRoomForWords);
     if (fraction >= 1)
       line += ", " + duration(seconds);
-    else if (fraction > 0 && seconds > kSecondsBeforeForecast)
-      line += ", " + duration(seconds * (1 - fraction) / fraction) + " left";
+    else if (done > 0 && seconds > kSecondsBeforeForecast)
+      line += ", " + duration(seconds * (1 - fraction) / done) + (width < kRoomForWords ? "" : " left");
     // Spaces wipe out what a longer line left behind; a line too long for the terminal would not be drawn over.
-    const int width = terminal_width() - 1;
     std::fprintf(stderr, "\r%-*.*s", width, width, line.c_str());
     std::fflush(stderr);
   }
@@ -89,6 +94,7 @@ class ProgressBar {
   std::uint64_t n_samples_;
   std::string stage_;
   Clock::time_point started_;
+  double started_at_ = 0;  // the fraction that earlier stages had done
   Clock::time_point drawn_;
 };
 

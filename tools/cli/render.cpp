@@ -59,12 +59,12 @@ struct Flags {
 };
 
 std::vector<Panel> to_panels(const std::vector<std::string>& names) {
-  static const std::map<std::string, Panel> kPanels{
+  static const std::map<std::string, Panel> panels_by_name{
       {"hillshade", Panel::kHillshade}, {"wireframe", Panel::kWireframe}, {"error", Panel::kError}};
   std::vector<Panel> panels;
   for (const std::string& name : names) {
-    const auto panel = kPanels.find(name);
-    if (panel == kPanels.end())
+    const auto panel = panels_by_name.find(name);
+    if (panel == panels_by_name.end())
       throw UsageError(fmt::format("--panels {}: no such panel; there are hillshade, wireframe and error", name));
     panels.push_back(panel->second);
   }

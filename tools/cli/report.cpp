@@ -18,25 +18,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const auto kStart = std::chrono::steady_clock::now();
+const auto started = std::chrono::steady_clock::now();
 
 constexpr int kDoesNotHold = 1;
 
 const std::map<std::string, const char*>& units() {
-  static const std::map<std::string, const char*> kUnits{{"max_error", "m"},
-                                                         {"rmse", "m"},
-                                                         {"mean_error", "m"},
-                                                         {"p99_error", "m"},
-                                                         {"tolerance", "m"},
-                                                         {"area_plan", "m2"},
-                                                         {"area_valid", "m2"},
-                                                         {"rounding", "m"},
-                                                         {"seconds", "s"},
-                                                         {"bytes", "bytes"},
-                                                         {"peak_memory_bytes", "bytes"},
-                                                         {"max_error_column", "samples"},
-                                                         {"max_error_row", "samples"}};
-  return kUnits;
+  static const std::map<std::string, const char*> units_by_key{{"max_error", "m"},
+                                                               {"rmse", "m"},
+                                                               {"mean_error", "m"},
+                                                               {"p99_error", "m"},
+                                                               {"tolerance", "m"},
+                                                               {"area_plan", "m2"},
+                                                               {"area_valid", "m2"},
+                                                               {"rounding", "m"},
+                                                               {"seconds", "s"},
+                                                               {"bytes", "bytes"},
+                                                               {"peak_memory_bytes", "bytes"},
+                                                               {"max_error_column", "samples"},
+                                                               {"max_error_row", "samples"}};
+  return units_by_key;
 }
 
 std::string as_text(const Json& value) {
@@ -51,7 +51,7 @@ Resources resources_so_far() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   constexpr std::uint64_t kBytesPerUnit = 1024;  // Linux counts ru_maxrss in kilobytes
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - kStart).count(),
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count(),
           static_cast<std::uint64_t>(usage.ru_maxrss) * kBytesPerUnit};
 }
 
