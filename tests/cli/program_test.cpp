@@ -1,5 +1,6 @@
 // What the program does when all is well.
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "run_program.hpp"
@@ -72,7 +73,7 @@ TEST_F(Program, CompressKeepsAToleranceOfZero) {
   RasterRecipe plane;
   plane.width = plane.height = 30;
   plane.values.clear();
-  for (int i = 0; i < 900; ++i) plane.values.push_back(i % 30 + 2 * (i / 30));
+  for (int i = 0; i < 900; ++i) plane.values.push_back(std::floor(i / 30.0) * 2 + i % 30);
   const Outcome outcome =
       run({"compress", write("plane.tif", plane), path("out.ply"), "--max-error", "0", "--json", "-"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -18,7 +18,7 @@ using test::RasterRecipe;
 using test::Rgb;
 using test::Scratch;
 
-const Progress kSilent;
+const Progress silent;
 
 int brightness(const Rgb& c) { return c.r + c.g + c.b; }
 
@@ -93,23 +93,23 @@ TEST(Wireframe, DarkensThePictureAlongEdges) {
 TEST(ErrorMap, ShowsTheLargestErrorAtAnyDensity) {
   const Scratch scratch;
   for (const double turn : {0.0, 0.3}) {
-    for (const auto& [column, row] : {std::array{0, 0}, {299, 199}, {173, 91}, {0, 199}, {150, 100}}) {
+    for (const auto& wrong : {std::array{0, 0}, {299, 199}, {173, 91}, {0, 199}, {150, 100}}) {
       RasterRecipe recipe{300, 200, [](int x, int y) { return 10.0 + x + 2 * y; }};
       recipe.geotransform = {0, 10 * std::cos(turn), 10 * std::sin(turn),
                              0, 10 * std::sin(turn), -10 * std::cos(turn)};
       const TerrainMesh mesh = test::thinned_grid(recipe, 50);
       write_mesh(scratch.path("plane.ply"), mesh, test::frame_of(recipe));
       const auto plane = recipe.z;
-      recipe.z = [&](int x, int y) { return plane(x, y) + (x == column && y == row ? 7.5 : 0); };
+      recipe.z = [&](int x, int y) { return plane(x, y) + (x == wrong[0] && y == wrong[1] ? 7.5 : 0); };
       test::write_raster(scratch.path("dem.tif"), recipe);
       const RasterField field({scratch.path("dem.tif")}, {});
       const Tin tin = read_mesh(scratch.path("plane.ply"));
       for (const int width : {16, 77, 300, 777}) {
         const View view = make_view(field.frame(), grid_extent(field.frame(), 300, 200), width);
-        const PixelGrid errors = largest_errors(view, field, tin, {&kSilent, 0, 1});
+        const PixelGrid errors = largest_errors(view, field, tin, {&silent, 0, 1});
         double lowest = 0;
         for (const double e : errors.value) lowest = std::min(lowest, std::isnan(e) ? 0 : e);
-        EXPECT_NEAR(lowest, -7.5, 1e-6) << column << " " << row << " width " << width << " turn " << turn;
+        EXPECT_NEAR(lowest, -7.5, 1e-6) << wrong[0] << " " << wrong[1] << " width " << width << " turn " << turn;
       }
     }
   }
