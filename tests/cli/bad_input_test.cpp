@@ -38,7 +38,7 @@ TEST_F(BadInput, RastersWithoutACell) {
     RasterRecipe recipe;
     recipe.width = width;
     recipe.height = height;
-    recipe.values.assign(static_cast<std::size_t>(width * height), 7);
+    recipe.values.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 7);
     expect_unusable(write("thin.tif", recipe), {"2 x 2"});
   }
 }

@@ -65,7 +65,8 @@ TEST(Tiles, CoverEveryPixelOnce) {
     std::vector<int> times(700 * 431, 0);
     for (const PixelRect& tile : tiles(view, {density, density / 2}))
       for (int y = tile.y0; y < tile.y0 + tile.height; ++y)
-        for (int x = tile.x0; x < tile.x0 + tile.width; ++x) ++times[static_cast<std::size_t>(y * 700 + x)];
+        for (int x = tile.x0; x < tile.x0 + tile.width; ++x)
+          ++times[static_cast<std::size_t>(y) * 700 + static_cast<std::size_t>(x)];
     EXPECT_EQ(std::count(times.begin(), times.end(), 1), 700 * 431) << density;
   }
 }
