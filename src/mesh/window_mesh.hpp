@@ -23,8 +23,8 @@ struct WindowMesh {
   std::vector<LatticePoint> position;
   std::vector<double> height;
   std::vector<VertexKind> kind;
-  std::vector<std::uint8_t> was_free;  // has been other than locked in this or an earlier round
-  std::vector<std::int32_t> out;       // a halfedge that leaves it; kNone: removed
+  std::vector<std::uint8_t> is_settled;  // was free among free neighbours in an earlier round
+  std::vector<std::int32_t> out;         // a halfedge that leaves it; kNone: removed
   // by halfedge
   std::vector<std::int32_t> origin;  // kNone: triangle removed
   std::vector<std::int32_t> twin;    // kNone: border

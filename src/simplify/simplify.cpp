@@ -42,7 +42,7 @@ class Simplifier {
 
   SimplifyCounts run() {
     for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
-      if (mesh_.is_alive(v) && !(options_.only_fresh && mesh_.was_free[at(v)])) queue_best(v);
+      if (mesh_.is_alive(v) && !(options_.only_unsettled && mesh_.is_settled[at(v)])) queue_best(v);
     }
     std::int32_t v = kNone;
     std::size_t bucket = 0;

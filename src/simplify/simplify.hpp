@@ -15,7 +15,7 @@ namespace tinsmith {
 struct SimplifyOptions {
   double tolerance = 0;  // vertical units of the samples: no sample under the mesh is ever farther off
   Placement placement = Placement::kOptimal;
-  bool only_fresh = false;  // start only from vertices that were never free, and from what changes around them
+  bool only_unsettled = false;  // start only from vertices that are not settled, and from what changes around them
 };
 
 /// What happened, for reports and for tests that want to know that they tested something.

@@ -24,8 +24,8 @@ double safe_tolerance(const HeightGrid& samples, double tolerance) {
 
 GridRect grown(const GridRect& r) { return {r.x0 - 1, r.y0 - 1, r.width + 2, r.height + 2}; }
 
-SimplifyOptions simplify_options(const HeightGrid& samples, const WindowOptions& options, bool only_fresh) {
-  return {safe_tolerance(samples, options.tolerance), options.placement, only_fresh};
+SimplifyOptions simplify_options(const HeightGrid& samples, const WindowOptions& options, bool only_unsettled) {
+  return {safe_tolerance(samples, options.tolerance), options.placement, only_unsettled};
 }
 
 void count_valid(const HeightGrid& samples, const GridRect& window, const HeightField& field, FirstChunk& result) {
@@ -44,7 +44,7 @@ WindowMesh mesh_of(Chunk&& chunk) {
   WindowMesh mesh;
   mesh.position = std::move(chunk.position);
   mesh.height = std::move(chunk.height);
-  mesh.was_free = std::move(chunk.was_free);
+  mesh.is_settled = std::move(chunk.is_settled);
   connect(mesh, chunk.triangles);
   return mesh;
 }
@@ -61,9 +61,9 @@ GridRect rect_of(const std::vector<LatticePoint>& positions) {
   return {x0, y0, ceil_cell(high.x) - x0 + 1, ceil_cell(high.y) - y0 + 1};
 }
 
-bool has_fresh(const WindowMesh& mesh) {
+bool has_unsettled(const WindowMesh& mesh) {
   for (std::size_t v = 0; v < mesh.position.size(); ++v) {
-    if (!mesh.was_free[v] && mesh.kind[v] != VertexKind::kLocked) return true;
+    if (!mesh.is_settled[v] && mesh.kind[v] != VertexKind::kLocked) return true;
   }
   return false;
 }
@@ -90,7 +90,7 @@ Chunk seam_chunk(const HeightField& field, const std::vector<const Chunk*>& part
   WindowMesh mesh = mesh_of(std::move(welded));
   const HeightGrid samples = field.read(grown(rect_of(mesh.position)));
   set_kinds(mesh, samples);
-  if (has_fresh(mesh)) simplify(mesh, samples, simplify_options(samples, options, true));
+  if (has_unsettled(mesh)) simplify(mesh, samples, simplify_options(samples, options, true));
   return chunk_of(mesh);
 }
 

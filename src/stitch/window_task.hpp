@@ -28,7 +28,7 @@ struct FirstChunk {
 /// Round 0: select, triangulate, simplify; the vertices on the window's border stay as they are.
 FirstChunk first_chunk(const HeightField& field, const GridRect& window, const WindowOptions& options);
 
-/// Rounds 1 to 3: the parts of the earlier round's chunks that belong to the window are welded, and the seams
+/// Later rounds: the parts of the earlier round's chunks that belong to the window are welded, and the seams
 /// that now lie inside dissolve.
 Chunk seam_chunk(const HeightField& field, const std::vector<const Chunk*>& parts, const WindowOptions& options);
 

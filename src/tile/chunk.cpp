@@ -34,7 +34,7 @@ class Extract {
       name_[at(v)] = static_cast<std::int32_t>(part.position.size());
       part.position.push_back(from_.position[at(v)]);
       part.height.push_back(from_.height[at(v)]);
-      part.was_free.push_back(from_.was_free[at(v)]);
+      part.is_settled.push_back(from_.is_settled[at(v)]);
     }
     return name_[at(v)];
   }
@@ -43,13 +43,25 @@ class Extract {
   std::vector<std::int32_t> name_;
 };
 
+// Settled is from now on what is free and has free neighbours only.
+void settle(std::vector<std::uint8_t>& is_settled, const WindowMesh& mesh) {
+  std::vector<std::uint8_t> is_near_locked(mesh.position.size(), 0);
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    if (mesh.origin[at(h)] == kNone || mesh.kind[at(mesh.origin[at(h)])] != VertexKind::kLocked) continue;
+    is_near_locked[at(mesh.origin[at(h)])] = 1;
+    is_near_locked[at(mesh.destination(h))] = 1;
+    is_near_locked[at(mesh.origin[at(WindowMesh::previous(h))])] = 1;
+  }
+  for (std::size_t v = 0; v < is_settled.size(); ++v) {
+    if (!is_near_locked[v]) is_settled[v] = 1;
+  }
+}
+
 }  // namespace
 
 Chunk chunk_of(const WindowMesh& mesh) {
-  Chunk all{mesh.position, mesh.height, mesh.was_free, {}};
-  for (std::size_t v = 0; v < all.was_free.size(); ++v) {
-    if (mesh.kind[v] != VertexKind::kLocked) all.was_free[v] = 1;
-  }
+  Chunk all{mesh.position, mesh.height, mesh.is_settled, {}};
+  settle(all.is_settled, mesh);
   std::vector<std::int32_t> live;
   for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
     if (mesh.origin[at(h)] == kNone) continue;
@@ -104,7 +116,7 @@ Chunk weld(const std::vector<const Chunk*>& parts) {
     if (whole.position.empty() || whole.position.back() != e.position) {
       whole.position.push_back(e.position);
       whole.height.push_back(part.height[at(e.vertex)]);
-      whole.was_free.push_back(part.was_free[at(e.vertex)]);
+      whole.is_settled.push_back(part.is_settled[at(e.vertex)]);
     }
     name[at(e.part)][at(e.vertex)] = static_cast<std::int32_t>(whole.position.size()) - 1;
   }

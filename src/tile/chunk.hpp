@@ -15,13 +15,13 @@ namespace tinsmith {
 struct Chunk {
   std::vector<LatticePoint> position;
   std::vector<double> height;
-  std::vector<std::uint8_t> was_free;  // see WindowMesh
+  std::vector<std::uint8_t> is_settled;  // see WindowMesh
   std::vector<std::array<std::int32_t, 3>> triangles;
 
   bool is_empty() const { return triangles.empty(); }
 };
 
-/// The live part of a mesh, whose vertices that are not locked count as free from now on.
+/// The live part of a mesh. Settled from now on is what was free and had no locked neighbour.
 Chunk chunk_of(const WindowMesh& mesh);
 
 /// The part of a chunk that belongs to a window, for each window that it touches, in the order of the windows.

@@ -38,10 +38,8 @@ GridRect WindowGrid::samples(std::int64_t window, std::int32_t width, std::int32
 }
 
 WindowGrid window_grid(std::int32_t width, std::int32_t height, std::int32_t side, int round) {
-  const std::int32_t half = side / 2;
-  const std::int32_t shift_x = round == 1 || round == 2 ? half : 0;
-  const std::int32_t shift_y = round == 1 || round == 3 ? half : 0;
-  return {side, shift_x, shift_y, count_along(width, side, shift_x), count_along(height, side, shift_y)};
+  const std::int32_t shift = round == 0 ? 0 : side / (round == 1 ? 2 : 4);
+  return {side, shift, shift, count_along(width, side, shift), count_along(height, side, shift)};
 }
 
 }  // namespace tinsmith

@@ -26,10 +26,12 @@ struct WindowGrid {
   GridRect samples(std::int64_t window, std::int32_t width, std::int32_t height) const;
 };
 
-inline constexpr int kRounds = 4;
+inline constexpr int kRounds = 3;
 
-/// The windows of a round for a field of width x height samples: shifted by (0, 0), by half a side in both
-/// directions, in x only, in y only.
+/// The windows of a round for a field of width x height samples: shifted in both directions by 0, by half a side
+/// and by a quarter. Round 1 has all seams of round 0 in its inside but for the points where they cross its own
+/// borders; those lie at 0 along one axis and half a side along the other, so that one more round, a quarter of a
+/// side away from both, has them all inside.
 WindowGrid window_grid(std::int32_t width, std::int32_t height, std::int32_t side, int round);
 
 }  // namespace tinsmith

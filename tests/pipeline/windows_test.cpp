@@ -54,11 +54,9 @@ struct Density {
   double ratio() const { return static_cast<double>(found) / static_cast<double>(expected); }
 };
 
-// Counts at most 1.01 x those of the one-window result, density near former seams at most 1.05 x. Some 550 vertices
-// lie near the seams of windows of 512, and a change of no consequence moves their density by 3 %: they count in
-// the sum only. Times are printed, not tested.
+// Counts at most 1.01 x those of the one-window result, density near former seams at most 1.05 x. Times are
+// printed, not tested.
 TEST(RunRounds, LeavesNoTraceOfItsWindows) {
-  constexpr std::uint64_t kEnough = 1'000;
   const Outcome one = run_on_matterhorn(20, 1024);
   ASSERT_EQ(one.report.windows, 1U);
   const auto n_one = static_cast<double>(one.mesh.triangles.size());
@@ -69,11 +67,12 @@ TEST(RunRounds, LeavesNoTraceOfItsWindows) {
     EXPECT_EQ(tiled.report.windows, static_cast<std::uint64_t>((1024 / window) * (1024 / window)));
     EXPECT_LE(static_cast<double>(tiled.mesh.triangles.size()), 1.01 * n_one);
     std::cout << "window " << window << ": " << tiled.mesh.triangles.size() << " triangles, one window " << n_one
-              << "; rounds 1 to 3 take " << 100 * share_of_later_rounds(tiled.report) << " %; density at seams";
+              << "; later rounds take " << 100 * share_of_later_rounds(tiled.report) << " %; density at seams";
     for (const std::int32_t shift : {0, window / 2}) {
       const Density density{n_near_seams(tiled.mesh, window, shift), n_near_seams(one.mesh, window, shift)};
       std::cout << " " << density.ratio() << " (" << density.expected << " vertices)";
-      EXPECT_TRUE(density.expected < kEnough || density.ratio() <= 1.05) << density.ratio() << ", shift " << shift;
+      EXPECT_GT(density.expected, 400U);
+      EXPECT_LE(density.ratio(), 1.05) << "shift " << shift;
       if (shift == 0) all = {all.found + density.found, all.expected + density.expected};
     }
     std::cout << "\n";
@@ -93,7 +92,7 @@ TEST(RunRounds, ReachesTheTriangleTargetsOnTheSampleTerrain) {
     const Outcome run = run_on_matterhorn(tolerance, CompressOptions{}.window);
     EXPECT_LE(run.mesh.triangles.size(), triangles) << tolerance << " m";
     EXPECT_EQ(complaints(check_surface(run.mesh, grid), tolerance), "");
-    std::cout << tolerance << " m: " << run.mesh.triangles.size() << " triangles, rounds 1 to 3 take "
+    std::cout << tolerance << " m: " << run.mesh.triangles.size() << " triangles, later rounds take "
               << 100 * share_of_later_rounds(run.report) << " %\n";
   }
 }

@@ -205,9 +205,9 @@ TEST(Simplify, OnlyFreshTouchesNothingWhenAllHaveBeenFree) {
   const HeightGrid grid = mountains(33, 33, 225);
   WindowMesh mesh = full_mesh(grid);
   set_kinds(mesh, with_margin(grid));
-  std::fill(mesh.was_free.begin(), mesh.was_free.end(), 1);
+  std::fill(mesh.is_settled.begin(), mesh.is_settled.end(), 1);
   EXPECT_EQ(simplify(mesh, with_margin(grid), {20, {}, true}).collapses, 0U);
-  mesh.was_free[17 * 33 + 16] = 0;
+  mesh.is_settled[17 * 33 + 16] = 0;
   EXPECT_GT(simplify(mesh, with_margin(grid), {20, {}, true}).collapses, 0U);
 }
 

@@ -17,7 +17,7 @@ inline WindowMesh drawn(const std::vector<LatticePoint>& position,
   WindowMesh mesh;
   mesh.position = position;
   mesh.height.assign(position.size(), 0);
-  mesh.was_free.assign(position.size(), 0);
+  mesh.is_settled.assign(position.size(), 0);
   connect(mesh, triangles);
   return mesh;
 }
@@ -61,7 +61,7 @@ inline WindowMesh full_mesh(const HeightGrid& grid) {
       triangles.push_back({v, v + columns + 1, v + columns});
     }
   }
-  mesh.was_free.assign(mesh.position.size(), 0);
+  mesh.is_settled.assign(mesh.position.size(), 0);
   connect(mesh, triangles);
   return mesh;
 }

@@ -18,7 +18,7 @@ using namespace test;
 Chunk chunk_from(const HeightGrid& grid, double tolerance) {
   Chunk chunk = chunk_of(triangulate(around(grid, grid.rect), grid.rect, {tolerance, 1}));
   std::mt19937 random(181);
-  for (std::uint8_t& was_free : chunk.was_free) was_free = random() % 2;
+  for (std::uint8_t& is_settled : chunk.is_settled) is_settled = random() % 2;
   return chunk;
 }
 
@@ -31,7 +31,7 @@ std::vector<std::array<Corner3, 3>> geometry_of(const Chunk& chunk) {
     std::array<Corner3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = static_cast<std::size_t>(t[k]);
-      corners[k] = {chunk.position[v], chunk.height[v], chunk.was_free[v]};
+      corners[k] = {chunk.position[v], chunk.height[v], chunk.is_settled[v]};
     }
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     all.push_back(corners);
@@ -95,22 +95,28 @@ TEST(Chunk, WeldDoesNotDependOnTheOrderOfItsParts) {
   EXPECT_TRUE(geometry_of(forwards) == geometry_of(backwards));
 }
 
-TEST(Chunk, OfAMeshHoldsItsLiveTrianglesAndMarksWhatWasFree) {
-  const HeightGrid grid = mountains(17, 17, 185);
+TEST(Chunk, OfAMeshHoldsItsLiveTrianglesAndSettlesWhatHasFreeNeighboursOnly) {
+  const HeightGrid grid = mountains(33, 33, 185);
   WindowMesh mesh = triangulate(around(grid, grid.rect), grid.rect, {50, 1});
   std::fill(mesh.kind.begin(), mesh.kind.end(), VertexKind::kInterior);
   std::vector<LatticePoint> locked;
-  for (std::size_t v = 0; v < mesh.kind.size(); v += 3) {
+  for (std::size_t v = 0; v < mesh.kind.size(); v += 40) {
     mesh.kind[v] = VertexKind::kLocked;
     locked.push_back(mesh.position[v]);
   }
   const Chunk chunk = chunk_of(mesh);
   EXPECT_EQ(soup_of(chunk).triangles.size(), soup_of(mesh).triangles.size());
   EXPECT_EQ(complaints(check_surface(chunk, grid), 50), "");
-  for (std::size_t v = 0; v < chunk.position.size(); ++v) {
-    const bool is_locked = std::find(locked.begin(), locked.end(), chunk.position[v]) != locked.end();
-    EXPECT_EQ(chunk.was_free[v] == 0, is_locked);
+  const auto is_locked = [&](std::int32_t v) {
+    return std::find(locked.begin(), locked.end(), chunk.position[static_cast<std::size_t>(v)]) != locked.end();
+  };
+  std::vector<std::uint8_t> expected(chunk.position.size(), 1);
+  for (const auto& t : chunk.triangles) {
+    if (std::none_of(t.begin(), t.end(), is_locked)) continue;
+    for (const std::int32_t v : t) expected[static_cast<std::size_t>(v)] = 0;
   }
+  EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 10);
+  EXPECT_EQ(chunk.is_settled, expected);
 }
 
 TEST(Chunk, OfNothingIsEmpty) {

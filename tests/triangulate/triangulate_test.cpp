@@ -53,7 +53,7 @@ TEST(Triangulate, EveryVertexIsASampleWithItsHeight) {
     const LatticePoint p = mesh.position[v];
     ASSERT_TRUE(is_sample_position(p));
     EXPECT_EQ(mesh.height[v], grid.at(p.x / kLatticePerCell, p.y / kLatticePerCell));
-    EXPECT_FALSE(mesh.was_free[v]);
+    EXPECT_FALSE(mesh.is_settled[v]);
   }
 }
 
