@@ -1,0 +1,216 @@
+#!/usr/bin/env python3
+"""Runs tinsmith and its peers on the same rasters, has every result judged, and writes the tables.
+
+Started by run.sh, which builds what is needed; see its --help. Every run leaves one JSON file below BUILD/runs; what
+is there already is not run again, so an interrupted benchmark goes on where it stopped. The files of one build of
+tinsmith are kept apart from those of another.
+"""
+
+import argparse
+import hashlib
+import json
+import pathlib
+import shlex
+import statistics
+import subprocess
+import sys
+
+import inputs
+import measure
+import report
+import tools
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+JUDGED = ["samples", "uncovered", "vertices", "triangles", "max_error", "rmse", "p99_error", "folded",
+          "non_manifold_edges", "t_junctions", "bytes"]
+
+
+class Bench:
+    """What all runs of one benchmark share."""
+
+    def __init__(self, build, limit):
+        self.build = build
+        self.limit = limit
+        self.binary = build / "tinsmith"
+        identity = hashlib.sha256(self.binary.read_bytes()).hexdigest()[:12]
+        self.runs = build / "runs" / identity
+        self.runs.mkdir(parents=True, exist_ok=True)
+        self.mesh = self.runs / "mesh.ply"
+
+    def grid(self, name, rasters):
+        """The samples as the peers read them."""
+        path = self.build / "inputs" / f"{name}.grid"
+        if not path.exists():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            unfinished = path.with_suffix(".new")
+            subprocess.run([self.build / "peers/dump", *rasters, unfinished], check=True)
+            unfinished.rename(path)
+        return path
+
+    def command(self, tool, case, n_triangles):
+        words = {"build": self.build, "bench": TOP / "tools/bench", "grid": case["grid"], "out": self.mesh,
+                 "m": f"{case['tolerance']:g}", "n": n_triangles}
+        filled = []
+        for word in tool.command.split():
+            filled += [str(r) for r in case["rasters"]] if word == "{input}" else [word.format(**words)]
+        return filled
+
+    def judge(self, case):
+        """What `tinsmith verify` says of the mesh; that it is not valid (exit code 1) is a result like others."""
+        command = [self.binary, "verify", *case["rasters"], self.mesh, "--json", "-"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode not in (0, 1):
+            return {"judge_failed": done.stderr.strip()}
+        certificate = json.loads(done.stdout)
+        return {key: certificate[key] for key in JUDGED}
+
+    def once(self, tool, case, repetition, n_triangles=0):
+        """One run, or what an earlier one left: its costs and, the first time, the judge's verdict."""
+        name = f"{case['input']}.{case['tolerance']:g}m.{tool.name.replace(', ', '-').replace(' ', '-')}.{repetition}"
+        path = self.runs / f"{name}.json"
+        if path.exists():
+            return json.loads(path.read_text())
+        self.mesh.unlink(missing_ok=True)
+        result = measure.run(self.command(tool, case, n_triangles), self.limit)
+        said = result.pop("stdout")
+        wrong = result.pop("stderr").strip().splitlines()
+        if result["exit_code"] == 0:
+            own = json.loads(said.splitlines()[-1])
+            result["own"] = {key: value for key, value in own.items() if key not in ("input", "output")}
+            if self.mesh.exists():
+                result["sha256"] = hashlib.sha256(self.mesh.read_bytes()).hexdigest()
+                if repetition == 0:
+                    result["judged"] = self.judge(case)
+        else:
+            result["failed"] = f"over {self.limit} s" if result["limit_hit"] else (wrong or ["no message"])[-1]
+        self.mesh.unlink(missing_ok=True)
+        unfinished = path.with_suffix(".new")
+        unfinished.write_text(json.dumps(result, indent=1))
+        unfinished.rename(path)
+        say(name, result)
+        return result
+
+
+def say(name, result):
+    judged = result.get("judged", {})
+    error = f", max error {judged['max_error']:.4g} m" if "max_error" in judged else ""
+    triangles = f", {judged['triangles']} triangles" if "triangles" in judged else ""
+    print(f"{name}: {result['wall']:.2f} s{triangles}{error}{result.get('failed', '') and ': ' + result['failed']}",
+          flush=True)
+
+
+def suits(tool, samples_per_side):
+    """martini takes squares of 2^k + 1 samples only."""
+    width, height = samples_per_side
+    return tool.name != "martini" or (width == height and (width - 1) & (width - 2) == 0)
+
+
+def measure_case(bench, case, options, n_runs):
+    """All tools at one tolerance: tinsmith and the tolerance-driven peers by turns, then the count-driven ones."""
+    ours = tools.tinsmith_tools(options.efforts)
+    peers = [t for t in tools.TOLERANCE_DRIVEN if t.name in options.peers and suits(t, case["size"])]
+    results = {tool.name: [] for tool in ours + peers}
+    for repetition in range(n_runs):
+        for tool in ours + peers:
+            earlier = results[tool.name]
+            if not (earlier and "failed" in earlier[0]):
+                earlier.append(bench.once(tool, case, repetition))
+    if "delatin" in options.peers and case["size"][0] * case["size"][1] < 5e6:
+        results[tools.CROSS_CHECK.name] = [bench.once(tools.CROSS_CHECK, case, 0)]
+    leader = results[ours[0].name][0]
+    if "judged" in leader and "triangles" in leader["judged"]:
+        for tool in (t for t in tools.COUNT_DRIVEN if t.name in options.peers):
+            results[tool.name] = [bench.once(tool, case, 0, leader["judged"]["triangles"])]
+    return results
+
+
+def header_of(grid):
+    with open(grid, "rb") as file:
+        return json.loads(file.readline())
+
+
+def measure_input(bench, name, options):
+    rasters = inputs.files(name, TOP, bench.build, options.data)
+    grid = bench.grid(name, rasters)
+    header = header_of(grid)
+    size = (header["width"], header["height"])
+    # Five runs for the small ones, where a run is short and its time less sure.
+    n_runs = options.runs or (3 if options.quick else 5 if size[0] * size[1] < 2e6 else 3)
+    cases = []
+    for tolerance in options.tolerances or (inputs.QUICK_TOLERANCES if options.quick else inputs.tolerances(name)):
+        case = {"input": name, "rasters": rasters, "grid": grid, "size": size, "tolerance": tolerance}
+        results = measure_case(bench, case, options, n_runs)
+        cases.append({"input": name, "size": size, "has_voids": header["has_voids"], "tolerance": tolerance,
+                      "results": results})
+    return cases
+
+
+def one_case_a_line(document):
+    rest = {key: value for key, value in document.items() if key != "cases"}
+    return json.dumps(rest)[:-1] + ', "cases": [\n' + ",\n".join(map(json.dumps, document["cases"])) + "\n]}\n"
+
+
+def write_tables(bench, options, cases):
+    loads = [run["load_before"] for case in cases for runs in case["results"].values() for run in runs]
+    document = {"command": "tools/bench/run.sh " + shlex.join(options.words), "machine": tools.machine(),
+                "versions": tools.versions(bench.build, TOP), "limit_seconds": bench.limit,
+                "load": {"median": statistics.median(loads), "highest": max(loads)}, "cases": cases}
+    options.out.mkdir(parents=True, exist_ok=True)
+    (options.out / "RESULTS.json").write_text(one_case_a_line(document))
+    (options.out / "RESULTS.md").write_text(report.markdown(document, options.efforts))
+
+
+def words(text):
+    return text.split(",")
+
+
+def numbers(text):
+    return [float(word) for word in text.split(",")]
+
+
+def command_line(arguments):
+    """As it is shown: without run.sh's own option, and folders of this machine as DIR."""
+    folder_follows = [False] + [word in ("--build", "--data", "--out") for word in arguments]
+    shown = ["DIR" if follows else word for word, follows in zip(arguments, folder_follows)]
+    return shown[2:]
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(prog="tools/bench/run.sh", description=__doc__.splitlines()[0])
+    parser.add_argument("--build", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--quick", action="store_true", help="matterhorn only, at 2,5,10,20,50 m, three runs of each")
+    parser.add_argument("--inputs", type=words, metavar="A,B", help="default: all there are")
+    parser.add_argument("--data", type=pathlib.Path, metavar="DIR", help="real terrain; without it, none is measured")
+    parser.add_argument("--tolerances", type=numbers, metavar="M,M", help="metres; default: tolerances.json")
+    parser.add_argument("--peers", type=words, metavar="A,B", default=tools.PEERS, help=", ".join(tools.PEERS))
+    parser.add_argument("--efforts", type=words, metavar="A,B", default=["default"], help="of tinsmith's --effort")
+    parser.add_argument("--runs", type=int, metavar="N", help="default: 5 up to 2 million samples, 3 above")
+    parser.add_argument("--limit", type=float, metavar="S", default=900, help="seconds after which a run is ended")
+    parser.add_argument("--out", type=pathlib.Path, metavar="DIR", default=TOP / "tools/bench",
+                        help="for RESULTS.md and RESULTS.json (default: tools/bench)")
+    parser.add_argument("--calibrate", action="store_true", help="only find the tolerances of the inputs anew")
+    options = parser.parse_args(arguments)
+    unknown = sorted(set(options.peers) - set(tools.PEERS))
+    if unknown:
+        parser.error(f"--peers {','.join(unknown)}: unknown; there are {', '.join(tools.PEERS)}")
+    options.words = command_line(arguments)
+    return options
+
+
+def main(arguments):
+    options = parse(arguments)
+    chosen = options.inputs or (["matterhorn"] if options.quick else inputs.names(options.data))
+    bench = Bench(options.build, options.limit)
+    cases = []
+    for name in chosen:
+        if options.calibrate:
+            inputs.calibrate(bench.build, name, inputs.files(name, TOP, bench.build, options.data))
+        else:
+            cases += measure_input(bench, name, options)
+            write_tables(bench, options, cases)
+    if cases:
+        print(options.out / "RESULTS.md")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

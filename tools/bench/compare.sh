@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# compare.sh REV_A REV_B [PAIRS] [METRES...]: builds two commits in worktrees below the build folder and times them by
+# turns on the sample terrain, with two threads and without verification. Prints for each tolerance the triangles, the
+# median seconds and the median of B : A, pair by pair.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../setup.sh"
+build=${TINSMITH_BENCH_BUILD:-$build/bench}
+[ $# -ge 2 ] || die 'usage: compare.sh REV_A REV_B [PAIRS] [METRES...], for example: compare.sh HEAD~1 HEAD 7 5 20'
+pairs=${3:-7}
+tolerances=("${@:4}")
+[ ${#tolerances[@]} -gt 0 ] || tolerances=(2 5 10 20 50)
+require_packages "$build_packages python3"
+
+# Prints the folder of the build of a commit; what was built before is kept.
+build_commit() {
+  local commit folder
+  commit=$(git -C "$top" rev-parse --verify --quiet "$1^{commit}") || die "$1: no such commit"
+  folder=$build/compare/${commit:0:12}
+  if ! [ -d "$folder/tree" ]; then
+    git -C "$top" worktree prune
+    git -C "$top" worktree add --quiet --detach "$folder/tree" "$commit"
+  fi
+  say "building $1 (${commit:0:12})"
+  cmake -S "$folder/tree" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTINSMITH_TESTS=OFF >"$folder/log" 2>&1 &&
+    cmake --build "$folder/build" --target tinsmith_cli >>"$folder/log" 2>&1 || die "the build of $1 failed: see $folder/log"
+  printf '%s\n' "$folder/build"
+}
+
+a=$(build_commit "$1")
+b=$(build_commit "$2")
+exec python3 -B "$top/tools/bench/compare.py" "$a/tinsmith" "$b/tinsmith" "$top/data/matterhorn.tif" "$pairs" \
+  "${tolerances[@]}"

@@ -1,0 +1,81 @@
+"""What is measured: the rasters, and the tolerances for each of them."""
+
+import json
+import pathlib
+import subprocess
+
+QUICK_TOLERANCES = [2, 5, 10, 20, 50]
+
+# Side in samples: 2^k + 1, since martini takes no other.
+GENERATED = {"fractal_1m": 1025, "fractal_4m": 2049, "fractal_16m": 4097, "fractal_64m": 8193}
+
+# Below the folder that --data names; skipped when it is not there.
+REAL = {
+    "alps": "srtm3_alps/*.hgt",
+    "murray": "srtm3_murray/*.tif",
+    "vancouver": "srtm3_vancouver/*.tif",
+    "autzen": "autzen_dsm_rgb/autzen_dsm_3ft.tif",
+    "etopo5": "etopo5/etopo5_int16.tif",
+}
+
+# Shares of the samples that the result keeps as vertices.
+SHARES = [0.5, 0.2, 0.05, 0.01, 0.001]
+
+TABLE = pathlib.Path(__file__).with_name("tolerances.json")
+
+
+def names(data):
+    """Every input that can be had, in the order in which they are measured."""
+    real = [name for name, pattern in REAL.items() if data and list(data.glob(pattern))]
+    return ["matterhorn", *GENERATED, *real]
+
+
+def files(name, top, build, data):
+    """The rasters of an input; generated ones are made when they are not there yet."""
+    if name in REAL:
+        found = sorted(data.glob(REAL[name])) if data else []
+        if not found:
+            raise SystemExit(f"bench: input {name}: no {REAL[name]} below --data; leave it out of --inputs")
+        return found
+    if name == "matterhorn":
+        return [top / "data/matterhorn.tif"]
+    if name not in GENERATED:
+        raise SystemExit(f"bench: --inputs {name}: unknown; there are {', '.join(['matterhorn', *GENERATED, *REAL])}")
+    path = build / "inputs" / f"{name}.tif"
+    if not path.exists():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        side = GENERATED[name]
+        unfinished = path.with_suffix(".new.tif")
+        subprocess.run([build / "make_terrain", "--kind", "fractal", "--size", f"{side}x{side}", unfinished], check=True)
+        unfinished.rename(path)
+    return [path]
+
+
+def tolerances(name):
+    """From the table; all generated mountains share one row, for the time per sample at equal tolerances."""
+    table = json.loads(TABLE.read_text())
+    row = "fractal" if name in GENERATED else name
+    found = [entry["tolerance"] for entry in table[row]]
+    return sorted({*found, *(QUICK_TOLERANCES if name == "matterhorn" else [])})
+
+
+def calibrate(build, name, paths):
+    """Finds the tolerances (two digits) at which tinsmith keeps the shares, and enters them in the table."""
+    entries = []
+    (build / "inputs").mkdir(parents=True, exist_ok=True)
+    for share in SHARES:
+        # A triangulation has about two triangles a vertex, and so has the full grid.
+        found = _compress(build, paths, ["--ratio", str(share)])
+        tolerance = float(f"{found['tolerance']:.2g}")
+        kept = _compress(build, paths, ["--max-error", str(tolerance)])
+        entries.append({"tolerance": tolerance, "share": round(kept["vertices"] / kept["samples"], 5)})
+        print(f"{name}: {tolerance:g} m keeps {entries[-1]['share']:.3%}", flush=True)
+    table = json.loads(TABLE.read_text()) if TABLE.exists() else {}
+    table["fractal" if name in GENERATED else name] = entries
+    rows = [f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in table.items()]
+    TABLE.write_text("{\n" + ",\n".join(rows) + "\n}\n")
+
+
+def _compress(build, paths, goal):
+    command = [tinsmith, "compress", *paths, "/dev/shm/tinsmith_bench.ply", *goal, "--no-verify", "--json", "-"]
+    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)

@@ -1,0 +1,38 @@
+"""Runs one program and says what it cost."""
+
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+
+
+def _kill(group):
+    try:
+        os.killpg(group, signal.SIGKILL)
+    except ProcessLookupError:
+        pass  # it ended by itself in this moment
+
+
+def run(command, limit):
+    """Wall and CPU seconds of the whole process, its peak memory in bytes, its exit code and what it printed.
+
+    After `limit` seconds it is ended, and "limit_hit" says so. The peak is the kernel's (ru_maxrss); it can't be
+    less than what this small Python itself holds, some 20 MB.
+    """
+    load = os.getloadavg()[0]
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        start = time.perf_counter()
+        child = subprocess.Popen(command, stdout=out, stderr=err, start_new_session=True)
+        timer = threading.Timer(limit, _kill, [child.pid])
+        timer.start()
+        _, status, usage = os.wait4(child.pid, 0)
+        wall = time.perf_counter() - start
+        timer.cancel()
+        child.returncode = os.waitstatus_to_exitcode(status)
+        out.seek(0)
+        err.seek(0)
+        return {"wall": wall, "cpu": usage.ru_utime + usage.ru_stime, "peak_memory": usage.ru_maxrss * 1024,
+                "exit_code": child.returncode, "limit_hit": child.returncode == -signal.SIGKILL and wall >= limit,
+                "load_before": load, "stdout": out.read().decode(), "stderr": err.read().decode(errors="replace")}
