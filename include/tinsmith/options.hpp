@@ -25,13 +25,23 @@ enum class Placement {
   kSubset,   // at one of its ends: every vertex of the result is a sample, with the sample's own height
 };
 
+/// How much refinement follows the first pass: vertices move, edges flip, and what becomes legal collapses.
+/// On the sample terrain at 10 m, fast : default : best need 1 : 1.4 : 2.2 of the time and 1 : 0.95 : 0.92 of the
+/// triangles.
+enum class Effort {
+  kFast,     // none
+  kDefault,  // one round
+  kBest,     // four rounds
+};
+
 /// What a compression aims for and how. Exactly one of max_error, triangles and ratio must be set.
 struct CompressOptions {
   std::optional<double> max_error;  // metres: largest vertical error against any sample
   std::optional<double> triangles;  // at most so many triangles, with the least error that reaches it
   std::optional<double> ratio;      // the same as a fraction (0 to 1] of the full grid's triangles
   Placement placement = Placement::kOptimal;
-  int window = 256;   // samples along a window's side; may change the result, never its guarantees
+  Effort effort = Effort::kDefault;
+  int window = 384;   // samples along a window's side; may change the result, never its guarantees
   int threads = 0;    // 0: as many as the machine has; never changes the result
   Progress progress;  // empty: silent
 };

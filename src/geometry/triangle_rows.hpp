@@ -50,10 +50,16 @@ struct TriangleRows {
     constexpr double kSlack = 1e-7;
     const double lo = std::max(left[0].at(row), left[1].at(row));
     const double hi = std::min(right[0].at(row), right[1].at(row));
-    return {static_cast<std::int32_t>(std::ceil(lo - kSlack)), static_cast<std::int32_t>(std::floor(hi + kSlack))};
+    return {-round_down(kSlack - lo), round_down(hi + kSlack)};
   }
 
  private:
+  // std::floor is a function call where the instruction set has no rounding.
+  static std::int32_t round_down(double v) {
+    const auto cut = static_cast<std::int32_t>(v);
+    return cut - (cut > v ? 1 : 0);
+  }
+
   // In (x, y) with counter-clockwise triangles a side that runs towards smaller y bounds x from below.
   void add(LatticePoint u, LatticePoint v, int& n_left, int& n_right) {
     const std::int32_t dy = v.y - u.y;

@@ -136,6 +136,53 @@ void collapse_edge(WindowMesh& mesh, std::int32_t h, std::int32_t kept, const Pl
   mesh.height[at(kept)] = place.height;
 }
 
+//        c                 c
+//      /   \             / | \         h ran from a to b, now from d to c; its triangle was (a, b, c) and is
+//     a --> b    -->     a  |  b        (d, c, a), that of its twin was (b, a, d) and is (c, d, b).
+//      \   /             \ | /
+//        d                 d
+void flip_edge(WindowMesh& mesh, std::int32_t h) {
+  const std::int32_t g = mesh.twin[at(h)];
+  const std::int32_t h_next = WindowMesh::next(h);
+  const std::int32_t h_previous = WindowMesh::previous(h);
+  const std::int32_t g_next = WindowMesh::next(g);
+  const std::int32_t g_previous = WindowMesh::previous(g);
+  const std::int32_t a = mesh.origin[at(h)];
+  const std::int32_t b = mesh.origin[at(g)];
+  const std::int32_t c = mesh.origin[at(h_previous)];
+  const std::int32_t d = mesh.origin[at(g_previous)];
+  const auto pair = [&](std::int32_t e, std::int32_t outside) {
+    mesh.twin[at(e)] = outside;
+    if (outside != kNone) mesh.twin[at(outside)] = e;
+  };
+  const auto rename_out = [&](std::int32_t v, std::initializer_list<std::int32_t> before, std::int32_t now) {
+    for (const std::int32_t e : before) {
+      if (mesh.out[at(v)] == e) {
+        mesh.out[at(v)] = now;
+        return;
+      }
+    }
+  };
+  rename_out(a, {h, g_next}, h_previous);
+  rename_out(b, {g, h_next}, g_previous);
+  rename_out(c, {h_previous}, h_next);
+  rename_out(d, {g_previous}, g_next);
+  const std::int32_t beside_bc = mesh.twin[at(h_next)];
+  const std::int32_t beside_ca = mesh.twin[at(h_previous)];
+  const std::int32_t beside_ad = mesh.twin[at(g_next)];
+  const std::int32_t beside_db = mesh.twin[at(g_previous)];
+  mesh.origin[at(h)] = d;
+  mesh.origin[at(h_next)] = c;
+  mesh.origin[at(h_previous)] = a;
+  mesh.origin[at(g)] = c;
+  mesh.origin[at(g_next)] = d;
+  mesh.origin[at(g_previous)] = b;
+  pair(h_next, beside_ca);
+  pair(h_previous, beside_ad);
+  pair(g_next, beside_db);
+  pair(g_previous, beside_bc);
+}
+
 namespace {
 
 std::string validate_halfedge(const WindowMesh& mesh, std::int32_t h) {

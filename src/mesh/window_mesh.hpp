@@ -68,6 +68,10 @@ void connect(WindowMesh& mesh, const std::vector<std::array<std::int32_t, 3>>& t
 /// it is legal was checked before.
 void collapse_edge(WindowMesh& mesh, std::int32_t h, std::int32_t kept, const Place& place);
 
+/// Replaces the edge of h, which has two triangles, by the other diagonal of their quadrilateral: h runs along it
+/// afterwards. Topology only: that both new triangles are counter-clockwise was checked before.
+void flip_edge(WindowMesh& mesh, std::int32_t h);
+
 /// Empty when all invariants hold, else the first broken one with its place. For tests: O(n).
 std::string validate(const WindowMesh& mesh);
 

@@ -82,8 +82,8 @@ TerrainMesh compress_field(const HeightField& field, const GridFrame& frame, con
   const double unit = frame.metres_per_vertical_unit;
   const auto run = [&](double tolerance, CompressReport& of_run) {
     const double allowed = output.empty() ? tolerance : tolerance_for_format(field, output, tolerance);
-    TerrainMesh surface =
-        run_rounds(field, frame, {allowed, options.window, options.placement}, options.progress, of_run);
+    TerrainMesh surface = run_rounds(field, frame, {allowed, options.window, options.placement, options.effort},
+                                     options.progress, of_run);
     require_triangles(surface);
     of_run.tolerance = tolerance * unit;
     return surface;

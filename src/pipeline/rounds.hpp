@@ -14,8 +14,9 @@ namespace tinsmith {
 
 struct RoundsOptions {
   double tolerance = 0;  // vertical units of the field
-  std::int32_t window = 256;
+  std::int32_t window = 384;
   Placement placement = Placement::kOptimal;
+  Effort effort = Effort::kDefault;
 };
 
 /// Compresses a field. Must be called inside the task arena that limits the threads; the result does not

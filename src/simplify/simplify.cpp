@@ -9,8 +9,9 @@
 #include "geometry/triangle_rows.hpp"
 #include "geometry/vertical_quadric.hpp"
 #include "simplify/bucket_queue.hpp"
-#include "simplify/error_bound.hpp"
 #include "simplify/placement.hpp"
+#include "simplify/refine.hpp"
+#include "simplify/star.hpp"
 
 namespace tinsmith {
 
@@ -20,14 +21,6 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // More triangles than this around one vertex are slow to walk and make slivers.
 constexpr std::size_t kMaxStar = 64;
-// Twice the area over the square of the longest side: below that, a sliver.
-constexpr double kMinShape = 0.0;
-
-struct OuterEdge {
-  std::int32_t a;
-  std::int32_t b;
-};
-
 class Simplifier {
  public:
   Simplifier(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options)
@@ -35,20 +28,23 @@ class Simplifier {
         samples_(samples),
         options_(options),
         rules_{options.placement, std::max(0.01 * options.tolerance, 1e-9)},
+        slope_(mesh.origin.size() / 3),
         quadric_(mesh.position.size()),
         vertex_(mesh.position.size()),
         edge_(mesh.origin.size()),
         mark_(mesh.position.size(), 0) {}
 
   SimplifyCounts run() {
+    for (std::int32_t h = 0; h < mesh_.n_halfedges(); h += 3) measure_slope(h);
     for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
-      if (mesh_.is_alive(v) && !(options_.only_unsettled && mesh_.is_settled[at(v)])) queue_best(v);
+      if (!mesh_.is_alive(v) || (options_.only_unsettled && mesh_.is_settled[at(v)])) continue;
+      vertex_[at(v)].version = 1;  // 0: nothing has changed around it since the round before
+      queue_best(v);
     }
-    std::int32_t v = kNone;
-    std::size_t bucket = 0;
-    while (queue_.pop(v, bucket)) {
-      vertex_[at(v)].is_queued = false;
-      if (mesh_.is_alive(v)) try_best(v, bucket);
+    collapse_all();
+    for (int i = 0; i < options_.refinements; ++i) {
+      refine();
+      collapse_all();
     }
     return counts_;
   }
@@ -62,8 +58,16 @@ class Simplifier {
     std::uint32_t version = 0;  // grows when the star changes
     std::uint32_t quadric_version = kNever;
     std::uint32_t best_version = kNever;  // own version when the best edge was found
+    std::uint32_t refined_at = 0;         // version in which it was refined
     std::int32_t best = kNone;            // halfedge of the cheapest edge not refused
     bool is_queued = false;
+  };
+
+  // Of a triangle: height units per cell, and twice the area in lattice units.
+  struct Slope {
+    float x = 0;
+    float y = 0;
+    float area = 0;
   };
 
   // Valid while the sum of the versions of the edge's ends is the one noted.
@@ -72,6 +76,51 @@ class Simplifier {
     std::uint32_t cost_at = kNever;
     float cost = 0;
   };
+
+  void collapse_all() {
+    std::int32_t v = kNone;
+    std::size_t bucket = 0;
+    while (queue_.pop(v, bucket)) {
+      vertex_[at(v)].is_queued = false;
+      if (mesh_.is_alive(v)) try_best(v, bucket);
+    }
+  }
+
+  // ---- refinement: what changes goes to the front of the queue, to be looked at anew
+
+  void refine() {
+    const RefineBound bound{samples_, options_.tolerance, options_.placement == Placement::kOptimal};
+    for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
+      if (!mesh_.is_alive(v) || vertex_[at(v)].refined_at == vertex_[at(v)].version) continue;
+      vertex_[at(v)].refined_at = vertex_[at(v)].version;
+      if (!improve_vertex(mesh_, bound, v, star_)) continue;
+      ++counts_.moves;
+      refresh_star(v, 0);
+    }
+    for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
+      if (mesh_.origin[at(h)] == kNone || h < mesh_.twin[at(h)] || edge_version(h) == 0) continue;
+      if (!improve_edge(mesh_, bound, h)) continue;
+      ++counts_.flips;
+      note_flip(h);
+    }
+  }
+
+  void note_flip(std::int32_t h) {
+    for (const std::int32_t e : {h, mesh_.twin[at(h)]}) {
+      measure_slope(e);
+      for (const std::int32_t side : {e, WindowMesh::next(e), WindowMesh::previous(e)}) {
+        edge_[at(edge_of(side))] = {};
+        change(mesh_.origin[at(side)], 0);
+      }
+    }
+  }
+
+  // The triangles around v have changed.
+  void refresh_star(std::int32_t v, std::size_t bucket) {
+    for_each_out(mesh_, v, [&](std::int32_t h) { measure_slope(h); });
+    change(v, bucket);
+    for_each_edge(v, [&](std::int32_t e) { change(other_end(e, v), bucket); });
+  }
 
   // ---- the queue: each vertex waits under the cost of its best edge. A vertex whose star has changed keeps
   // its place and is looked at anew when its turn comes: costs mostly grow, and many change several times.
@@ -165,14 +214,23 @@ class Simplifier {
       return false;
     }
     const Candidates c = place(edge(h), rules_);
+    HeightInterval refusal;
     bool in_kernel = false;
     for (int i = 0; i < c.n; ++i) {
       const Candidate& candidate = c.list[static_cast<std::size_t>(i)];
-      if (!is_in_kernel(candidate.position)) continue;
+      if (!is_in_kernel(star_, candidate.position)) continue;
+      const Bound bound{samples_, options_.tolerance, candidate.height};
+      // What refused one candidate mostly refuses the next.
+      if (in_kernel && is_still_empty(refusal, star_, bound, candidate.position)) continue;
       in_kernel = true;
-      double height = 0;
-      if (!find_height(candidate, height)) continue;
-      apply(h, {candidate.position, height}, bucket);
+      const HeightInterval interval = feasible_heights(star_, bound, candidate.position);
+      if (interval.is_empty()) {
+        refusal = interval;
+        continue;
+      }
+      if (candidate.has_fixed_height && !(interval.lowest <= 0 && 0 <= interval.highest)) continue;
+      const double offset = candidate.has_fixed_height ? 0 : interval.best();
+      apply(h, {candidate.position, candidate.height + offset}, bucket);
       return true;
     }
     ++(in_kernel ? counts_.refused_bound : counts_.refused_half_space);
@@ -186,13 +244,15 @@ class Simplifier {
     const std::int32_t v1 = mesh_.destination(h);
     for (const std::int32_t v : {v0, v1}) {
       for_each_out(mesh_, v, [&](std::int32_t g) {
-        const std::int32_t n = WindowMesh::next(g);
-        const OuterEdge edge{mesh_.origin[at(n)], mesh_.destination(n)};
-        if (edge.a != v0 && edge.a != v1 && edge.b != v0 && edge.b != v1) star_.push_back(edge);
+        const std::int32_t a = mesh_.destination(g);
+        const std::int32_t b = mesh_.origin[at(WindowMesh::previous(g))];
+        if (a != v0 && a != v1 && b != v0 && b != v1) star_.push_back({corner(a), corner(b)});
       });
     }
     return !star_.empty() && star_.size() <= kMaxStar;
   }
+
+  Corner corner(std::int32_t v) const { return {mesh_.position[at(v)], mesh_.height[at(v)]}; }
 
   // Link condition: the ends have no common neighbour but the apexes of the edge's own triangles.
   bool is_linked(std::int32_t h) {
@@ -217,43 +277,6 @@ class Simplifier {
     return has_neighbour(h) && (mesh_.is_border_edge(h) || has_neighbour(mesh_.twin[at(h)]));
   }
 
-  // Half-space test, eq. 24, in the horizontal plane: p strictly inside every side of the link.
-  bool is_in_kernel(LatticePoint p) const {
-    return std::all_of(star_.begin(), star_.end(), [&](const OuterEdge& edge) {
-      const LatticePoint a = mesh_.position[at(edge.a)];
-      const LatticePoint b = mesh_.position[at(edge.b)];
-      const std::int64_t area = orient(p, a, b);
-      return area > 0 && (kMinShape == 0.0 || has_shape(area, p, a, b));
-    });
-  }
-
-  static bool has_shape(std::int64_t area, LatticePoint a, LatticePoint b, LatticePoint c) {
-    const auto length2 = [](LatticePoint u, LatticePoint v) {
-      const auto dx = static_cast<double>(u.x - v.x);
-      const auto dy = static_cast<double>(u.y - v.y);
-      return dx * dx + dy * dy;
-    };
-    return static_cast<double>(area) >= kMinShape * std::max({length2(a, b), length2(b, c), length2(c, a)});
-  }
-
-  // The least-squares height over the star's samples, held within the feasible interval.
-  bool find_height(const Candidate& candidate, double& height) const {
-    HeightInterval interval;
-    const Bound bound{samples_, options_.tolerance, candidate.height};
-    for (const OuterEdge& edge : star_) {
-      const Corner a{mesh_.position[at(edge.a)], mesh_.height[at(edge.a)]};
-      const Corner b{mesh_.position[at(edge.b)], mesh_.height[at(edge.b)]};
-      if (!narrow(interval, bound, candidate.position, a, b)) return false;
-    }
-    if (candidate.has_fixed_height) {
-      height = candidate.height;
-      return interval.lowest <= 0 && 0 <= interval.highest;
-    }
-    const double best = interval.sum_ww > 0 ? interval.sum_wr / interval.sum_ww : 0;
-    height = candidate.height + std::clamp(best, interval.lowest, interval.highest);
-    return true;
-  }
-
   void apply(std::int32_t h, const Place& place, std::size_t bucket) {
     ++counts_.collapses;
     // The survivor is the end of the higher kind: a locked vertex is known elsewhere by its place.
@@ -266,8 +289,7 @@ class Simplifier {
     collapse_edge(mesh_, h, kept, place);
     // Higher than either was: edges that change hands must not look like what they were.
     vertex_[at(kept)].version = std::max(vertex_[at(kept)].version, vertex_[at(gone)].version);
-    change(kept, bucket);
-    for_each_edge(kept, [&](std::int32_t e) { change(other_end(e, kept), bucket); });
+    refresh_star(kept, bucket);
   }
 
   // The outer halfedges beside the triangle of h are about to be the two halves of one edge.
@@ -284,30 +306,36 @@ class Simplifier {
 
   void sum_quadric(std::int32_t v) {
     VerticalQuadric q;
-    const LatticePoint p = mesh_.position[at(v)];
-    const double z = mesh_.height[at(v)];
     for_each_out(mesh_, v, [&](std::int32_t h) {
-      const std::int32_t a = mesh_.destination(h);
-      const std::int32_t b = mesh_.origin[at(WindowMesh::previous(h))];
-      const LatticePoint pa = mesh_.position[at(a)];
-      const LatticePoint pb = mesh_.position[at(b)];
-      const Plane plane = plane_through(p, z, pa, mesh_.height[at(a)], pb, mesh_.height[at(b)]);
-      q.add(plane.dx, plane.dy, static_cast<double>(orient(p, pa, pb)));
+      const Slope& slope = slope_[at(h / 3)];
+      q.add(slope.x, slope.y, slope.area);
     });
     quadric_[at(v)] = q;
+  }
+
+  // The triangle of h has come into being or has changed.
+  void measure_slope(std::int32_t h) {
+    const std::int32_t n = WindowMesh::next(h);
+    const Corner a = corner(mesh_.origin[at(h)]);
+    const Corner b = corner(mesh_.origin[at(n)]);
+    const Corner c = corner(mesh_.destination(n));
+    const Plane plane = plane_through(a.position, a.height, b.position, b.height, c.position, c.height);
+    slope_[at(h / 3)] = {static_cast<float>(plane.dx), static_cast<float>(plane.dy),
+                         static_cast<float>(orient(a.position, b.position, c.position))};
   }
 
   WindowMesh& mesh_;
   const HeightGrid& samples_;
   const SimplifyOptions& options_;
   PlacementRules rules_;
+  std::vector<Slope> slope_;              // by triangle
   std::vector<VerticalQuadric> quadric_;  // by vertex
   std::vector<VertexState> vertex_;
   std::vector<EdgeState> edge_;      // by the larger of its halfedges
   std::vector<std::uint32_t> mark_;  // by vertex, valid when equal to mark_now_
   std::uint32_t mark_now_ = 0;
   Queue queue_;
-  std::vector<OuterEdge> star_;
+  Star star_;
   SimplifyCounts counts_;
 };
 

@@ -15,12 +15,15 @@ namespace tinsmith {
 struct SimplifyOptions {
   double tolerance = 0;  // vertical units of the samples: no sample under the mesh is ever farther off
   Placement placement = Placement::kOptimal;
+  int refinements = 0;          // rounds of vertex moves, flips and further collapses after the first pass
   bool only_unsettled = false;  // start only from vertices that are not settled, and from what changes around them
 };
 
 /// What happened, for reports and for tests that want to know that they tested something.
 struct SimplifyCounts {
   std::uint64_t collapses = 0;
+  std::uint64_t moves = 0;
+  std::uint64_t flips = 0;
   std::uint64_t refused_topology = 0;    // link condition, shape, valence
   std::uint64_t refused_half_space = 0;  // every candidate outside the kernel
   std::uint64_t refused_bound = 0;       // no feasible height at any candidate

@@ -25,7 +25,7 @@ double safe_tolerance(const HeightGrid& samples, double tolerance) {
 GridRect grown(const GridRect& r) { return {r.x0 - 1, r.y0 - 1, r.width + 2, r.height + 2}; }
 
 SimplifyOptions simplify_options(const HeightGrid& samples, const WindowOptions& options, bool only_unsettled) {
-  return {safe_tolerance(samples, options.tolerance), options.placement, only_unsettled};
+  return {safe_tolerance(samples, options.tolerance), options.placement, options.refinements, only_unsettled};
 }
 
 void count_valid(const HeightGrid& samples, const GridRect& window, const HeightField& field, FirstChunk& result) {
@@ -68,6 +68,49 @@ bool has_unsettled(const WindowMesh& mesh) {
   return false;
 }
 
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// The length of each vertex's longest edge, along a row or a column, in cells.
+std::vector<std::int32_t> longest_edges(const WindowMesh& mesh) {
+  std::vector<std::int32_t> longest(mesh.position.size(), 0);
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    const std::int32_t a = mesh.origin[at(h)];
+    const std::int32_t b = mesh.destination(h);
+    const LatticePoint p = mesh.position[at(a)];
+    const LatticePoint q = mesh.position[at(b)];
+    const std::int32_t length = std::max(std::abs(p.x - q.x), std::abs(p.y - q.y)) / kLatticePerCell;
+    longest[at(a)] = std::max(longest[at(a)], length);
+    longest[at(b)] = std::max(longest[at(b)], length);
+  }
+  return longest;
+}
+
+// Locks the neighbours of what is locked.
+void lock_ring(WindowMesh& mesh, const std::vector<std::int32_t>& longest, std::int32_t reach) {
+  std::vector<std::int32_t> ring;
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    const std::int32_t a = mesh.origin[at(h)];
+    const std::int32_t b = mesh.destination(h);
+    const bool is_a_locked = mesh.kind[at(a)] == VertexKind::kLocked;
+    if (is_a_locked == (mesh.kind[at(b)] == VertexKind::kLocked)) continue;
+    const std::int32_t beside = is_a_locked ? b : a;
+    if (longest[at(beside)] <= reach) ring.push_back(beside);
+  }
+  for (const std::int32_t v : ring) mesh.kind[at(v)] = VertexKind::kLocked;
+}
+
+// What lies within two edges of a seam is left to the round in which the seam is inside a window. When the seam's
+// own vertices alone wait, what is simplified beside their straight line remembers it: at 20 m on the sample
+// terrain, windows of 64, 1.09 times as many vertices within two cells of former seams as with one window; 1.06
+// when one ring waits, 1.00 with two, 1.01 with three. The time is the same. Where edges are long the ground is
+// flat, and triangles could get too large for the windows of later rounds.
+void lock_beside_seams(WindowMesh& mesh, const GridRect& window) {
+  const std::vector<std::int32_t> longest = longest_edges(mesh);
+  const std::int32_t reach = std::max(window.width, window.height) / 8;
+  lock_ring(mesh, longest, reach);
+  lock_ring(mesh, longest, reach);
+}
+
 }  // namespace
 
 FirstChunk first_chunk(const HeightField& field, const GridRect& window, const WindowOptions& options) {
@@ -79,6 +122,7 @@ FirstChunk first_chunk(const HeightField& field, const GridRect& window, const W
   WindowMesh mesh = triangulate(samples, window, {simplification.tolerance, options.aspect});
   result.start_triangles = mesh.origin.size() / 3;
   set_kinds(mesh, samples);
+  lock_beside_seams(mesh, window);
   simplify(mesh, samples, simplification);
   result.chunk = chunk_of(mesh);
   return result;

@@ -21,15 +21,12 @@ class Hierarchy {
       : samples_(samples), tolerance_(tolerance), selection_(selection) {}
 
   void refine(const RightTriangle& t) {
-    if (!touches_window(t)) return;
     const bool is_half_cell = std::abs(t.b.x - t.c.x) == 1;
-    if (is_half_cell || is_flat(t)) {
-      mark(t.a);
-      mark(t.b);
-      mark(t.c);
-      return;
-    }
+    if (is_half_cell || !touches_window(t)) return;
+    const Fit fit = fit_of(t);
+    if (fit == Fit::kFlat) return;
     const LatticePoint m{(t.b.x + t.c.x) / 2, (t.b.y + t.c.y) / 2};
+    if (fit == Fit::kRough) mark(m);
     refine({m, t.a, t.b});
     refine({m, t.c, t.a});
   }
@@ -50,10 +47,14 @@ class Hierarchy {
     if (is_inside(p) && samples_.is_valid(p.x, p.y)) selection_.at(p.x, p.y) = 1;
   }
 
-  // All samples of the window under the triangle are void, or all are valid and near the plane. Corners that
-  // stick out of the window (it is not always a power of two) have no height: then it is split.
-  bool is_flat(const RightTriangle& t) const {
-    if (!is_inside(t.a) || !is_inside(t.b) || !is_inside(t.c)) return false;
+  enum class Fit {
+    kFlat,  // all samples under it are void, or all are valid and near its plane
+    kRough,
+    kUnknown,  // a corner sticks out of the window, which is not always a power of two
+  };
+
+  Fit fit_of(const RightTriangle& t) const {
+    if (!is_inside(t.a) || !is_inside(t.b) || !is_inside(t.c)) return Fit::kUnknown;
     const double za = samples_.at(t.a.x, t.a.y);
     const bool is_void = std::isnan(za);
     const bool mirrored = orient(t.a, t.b, t.c) < 0;
@@ -64,9 +65,9 @@ class Hierarchy {
     const TriangleRows rows(scaled(t.a), scaled(b), scaled(c));
     for (std::int32_t y = rows.first_row; y <= rows.last_row; ++y) {
       const auto [first, last] = rows.columns(y);
-      if (!(is_void ? is_row_void(y, first, last) : is_row_near(plane, y, first, last))) return false;
+      if (!(is_void ? is_row_void(y, first, last) : is_row_near(plane, y, first, last))) return Fit::kRough;
     }
-    return true;
+    return Fit::kFlat;
   }
 
   const double* row(std::int32_t y, std::int32_t first) const {

@@ -21,9 +21,9 @@ struct Selection {
   }
 };
 
-/// Marks valid samples of the window so that on the hierarchy's triangles every sample is within the tolerance.
-/// The triangles are not conforming and not returned: it is the samples that count. Voids split triangles down
-/// to the single cell.
+/// Marks the valid samples at which the hierarchy splits a triangle that has a sample farther than the tolerance
+/// from its plane, or voids and valid samples both. The triangles are not conforming and not returned: it is the
+/// samples that count, and the window's corners belong to them without a mark.
 void select_samples(const HeightGrid& samples, double tolerance, Selection& selection);
 
 /// Marks on the straight line from sample a to sample b (on one row or column, both included) the samples that

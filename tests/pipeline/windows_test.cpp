@@ -20,7 +20,7 @@ TEST(RunRounds, GivesTheSameBytesForAnyNumberOfThreads) {
   HeightGrid with_voids = grid;
   cut(with_voids, Mask::kSparse, 311);
   for (const HeightGrid& one : {grid, with_voids}) {
-    const RoundsOptions options{10, 64, Placement::kOptimal};
+    const RoundsOptions options{10, 64, Placement::kOptimal, Effort::kDefault};
     const Outcome serial = run_on(one, options, 1);
     EXPECT_GT(serial.report.windows, 30U);
     EXPECT_GT(serial.mesh.triangles.size(), 10'000U);

@@ -42,6 +42,8 @@ when to stop, exactly one of:
 options:
   --placement P        where a vertex may lie: optimal (anywhere), segment (on the collapsed edge) or subset
                        (every vertex is a sample) (default optimal)
+  --effort E           fast, default or best: how much refinement follows the first pass, for fewer triangles; best
+                       takes up to twice as long as fast
   --window T           samples along a window's side (default {}); may change the result a little
   --threads N          0: as many as the machine has (default 0); never changes the result
 )" TINSMITH_INPUT_MANUAL
@@ -69,6 +71,7 @@ struct Flags {
   std::optional<double> triangles;
   std::optional<double> ratio;
   std::string placement = "optimal";
+  std::string effort = "default";
   int window = CompressOptions().window;
   int threads = CompressOptions().threads;
   InputFlags input;
@@ -88,13 +91,12 @@ void require_one_stop(const Flags& flags) {
   if (flags.max_error) require_tolerance("--max-error", *flags.max_error);
 }
 
-Placement to_placement(const std::string& name) {
-  static const std::map<std::string, Placement> placements{
-      {"optimal", Placement::kOptimal}, {"segment", Placement::kSegment}, {"subset", Placement::kSubset}};
-  const auto placement = placements.find(name);
-  if (placement == placements.end())
-    throw UsageError(fmt::format("--placement {}: there is no such; use optimal, segment or subset", name));
-  return placement->second;
+template <class Choice>
+Choice choose(const std::string& flag, const std::string& name, const std::map<std::string, Choice>& choices) {
+  if (const auto choice = choices.find(name); choice != choices.end()) return choice->second;
+  std::string names;
+  for (const auto& [known, value] : choices) names += (names.empty() ? "" : ", ") + known;
+  throw UsageError(fmt::format("{} {}: there is no such; use one of {}", flag, name, names));
 }
 
 CompressOptions to_options(const Flags& flags) {
@@ -103,7 +105,11 @@ CompressOptions to_options(const Flags& flags) {
   options.max_error = flags.max_error;
   options.triangles = flags.triangles;
   options.ratio = flags.ratio;
-  options.placement = to_placement(flags.placement);
+  options.placement = choose<Placement>(
+      "--placement", flags.placement,
+      {{"optimal", Placement::kOptimal}, {"segment", Placement::kSegment}, {"subset", Placement::kSubset}});
+  options.effort = choose<Effort>(
+      "--effort", flags.effort, {{"fast", Effort::kFast}, {"default", Effort::kDefault}, {"best", Effort::kBest}});
   options.window = flags.window;
   options.threads = flags.threads;
   return options;
@@ -176,6 +182,7 @@ void add_compress(CLI::App& program, Run& run) {
   verb.add_option("--triangles", flags->triangles);
   verb.add_option("--ratio", flags->ratio);
   verb.add_option("--placement", flags->placement);
+  verb.add_option("--effort", flags->effort);
   verb.add_option("--window", flags->window);
   verb.add_option("--threads", flags->threads);
   add_input_flags(verb, flags->input);

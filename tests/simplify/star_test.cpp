@@ -1,4 +1,4 @@
-#include "simplify/error_bound.hpp"
+#include "simplify/star.hpp"
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ TEST(ErrorBound, ItsIntervalIsExactlyTheHeightsWithinTheTolerance) {
     const Case c = draw(random, grid);
     if (orient(c.p, c.a.position, c.b.position) < 500) continue;
     HeightInterval interval;
-    if (narrow(interval, {grid, kTolerance, c.reference}, c.p, c.a, c.b)) {
+    if (narrow(interval, {grid, kTolerance, c.reference}, c.p, {c.a, c.b})) {
       if (interval.sum_ww == 0) continue;  // no sample inside
       ++n_feasible;
       EXPECT_FALSE(interval.is_empty());
@@ -89,7 +89,7 @@ TEST(ErrorBound, ItsSumsGiveTheLeastSquaresHeight) {
     const Case c = draw(random, grid);
     if (orient(c.p, c.a.position, c.b.position) < 2000) continue;
     HeightInterval interval;
-    ASSERT_TRUE(narrow(interval, {grid, 1e6, c.reference}, c.p, c.a, c.b));
+    ASSERT_TRUE(narrow(interval, {grid, 1e6, c.reference}, c.p, {c.a, c.b}));
     if (interval.sum_ww == 0) continue;
     ++tested;
     const auto squares = [&](double z) {

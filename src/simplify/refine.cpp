@@ -1,0 +1,135 @@
+#include "simplify/refine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/triangle_rows.hpp"
+
+namespace tinsmith {
+
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// A step must be worth its disturbance.
+constexpr double kWorthwhile = 0.98;
+constexpr double kStep = 0.25;  // of the mean edge length
+
+Corner corner(const WindowMesh& mesh, std::int32_t v) { return {mesh.position[at(v)], mesh.height[at(v)]}; }
+
+// Where a vertex of this kind may go, one step of `step` lattice units.
+struct Directions {
+  std::array<LatticePoint, 8> list;
+  std::size_t n = 0;
+};
+
+Directions directions(const WindowMesh& mesh, std::int32_t v, std::int32_t step) {
+  const auto diagonal = static_cast<std::int32_t>(std::lround(step * 0.7071));
+  if (mesh.kind[at(v)] == VertexKind::kInterior)
+    return {{{{step, 0},
+              {diagonal, diagonal},
+              {0, step},
+              {-diagonal, diagonal},
+              {-step, 0},
+              {-diagonal, -diagonal},
+              {0, -step},
+              {diagonal, -diagonal}}},
+            8};
+  if (mesh.kind[at(v)] != VertexKind::kBorder) return {};
+  const LatticePoint p = mesh.position[at(v)];
+  const LatticePoint q = mesh.position[at(mesh.destination(mesh.out[at(v)]))];
+  if (p.y == q.y) return {{{{step, 0}, {-step, 0}}}, 2};
+  return {{{{0, step}, {0, -step}}}, 2};
+}
+
+// Gathers the star and returns the step.
+std::int32_t gather(const WindowMesh& mesh, std::int32_t v, Star& star) {
+  star.clear();
+  const LatticePoint p = mesh.position[at(v)];
+  double length = 0;
+  for_each_out(mesh, v, [&](std::int32_t h) {
+    const Corner a = corner(mesh, mesh.destination(h));
+    star.push_back({a, corner(mesh, mesh.origin[at(WindowMesh::previous(h))])});
+    length += std::hypot(a.position.x - p.x, a.position.y - p.y);
+  });
+  return std::max(1, static_cast<std::int32_t>(std::lround(kStep * length / static_cast<double>(star.size()))));
+}
+
+// The border's own line bounds a sliding vertex too: it must not pass its neighbours.
+bool stays_between(const WindowMesh& mesh, std::int32_t v, LatticePoint p) {
+  if (mesh.kind[at(v)] != VertexKind::kBorder) return true;
+  const LatticePoint after = mesh.position[at(mesh.destination(mesh.out[at(v)]))];
+  std::int32_t last = kNone;
+  for_each_out(mesh, v, [&](std::int32_t h) { last = h; });
+  const LatticePoint before = mesh.position[at(mesh.origin[at(WindowMesh::previous(last))])];
+  return std::min(before, after) < p && p < std::max(before, after);
+}
+
+// Sum of the squared errors over the samples of a triangle; negative when one exceeds the tolerance.
+double squared_error(const RefineBound& bound, const Corner& a, const Corner& b, const Corner& c) {
+  const Plane plane = plane_through(a.position, a.height, b.position, b.height, c.position, c.height);
+  const TriangleRows rows(a.position, b.position, c.position);
+  const GridRect& r = bound.samples.rect;
+  double sum = 0;
+  for (std::int32_t y = rows.first_row; y <= rows.last_row; ++y) {
+    const auto [first, last] = rows.columns(y);
+    if (first > last) continue;
+    const double* z = bound.samples.z.data() + (static_cast<std::int64_t>(y - r.y0) * r.width + (first - r.x0));
+    const double start = plane.at(first, y);
+    for (std::int32_t i = 0; i <= last - first; ++i) {
+      const double error = start + i * plane.dx - z[i];
+      if (!(std::abs(error) <= bound.tolerance)) return -1;
+      sum += error * error;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, Star& star) {
+  if (!bound.may_move || mesh.kind[at(v)] == VertexKind::kLocked) return false;
+  const std::int32_t step = gather(mesh, v, star);
+  const Bound star_bound{bound.samples, bound.tolerance, mesh.height[at(v)]};
+  const LatticePoint p = mesh.position[at(v)];
+  const HeightInterval here = feasible_heights(star, star_bound, p);
+  if (here.is_empty()) return false;  // by rounding only
+  Place best{p, here.best()};
+  double least = here.squared_error(best.height);
+  const double worth = kWorthwhile * here.squared_error(0);
+  const Directions where = directions(mesh, v, step);
+  for (std::size_t i = 0; i < where.n; ++i) {
+    const LatticePoint q{p.x + where.list[i].x, p.y + where.list[i].y};
+    if (!is_in_kernel(star, q) || !stays_between(mesh, v, q)) continue;
+    const HeightInterval there = feasible_heights(star, star_bound, q);
+    if (there.is_empty() || there.squared_error(there.best()) >= least) continue;
+    best = {q, there.best()};
+    least = there.squared_error(best.height);
+  }
+  if (!(least < worth)) return false;
+  mesh.position[at(v)] = best.position;
+  mesh.height[at(v)] += best.height;
+  return true;
+}
+
+bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h) {
+  if (mesh.is_border_edge(h)) return false;
+  const std::int32_t g = mesh.twin[at(h)];
+  const Corner a = corner(mesh, mesh.origin[at(h)]);
+  const Corner b = corner(mesh, mesh.origin[at(g)]);
+  const Corner c = corner(mesh, mesh.origin[at(WindowMesh::previous(h))]);
+  const Corner d = corner(mesh, mesh.origin[at(WindowMesh::previous(g))]);
+  if (orient(d.position, c.position, a.position) <= 0 || orient(c.position, d.position, b.position) <= 0)
+    return false;
+  const double left = squared_error(bound, d, c, a);
+  if (left < 0) return false;
+  const double right = squared_error(bound, c, d, b);
+  if (right < 0) return false;
+  const double before = squared_error(bound, a, b, c) + squared_error(bound, b, a, d);
+  if (!(left + right < kWorthwhile * before)) return false;
+  flip_edge(mesh, h);
+  return true;
+}
+
+}  // namespace tinsmith

@@ -1,0 +1,65 @@
+#pragma once
+// The star of a vertex that is about to be placed: what must hold where it goes, and which heights it may take
+// there so that every sample under it stays within the tolerance ("feasible height", DESIGN section 4).
+
+#include <limits>
+#include <vector>
+
+#include "geometry/lattice.hpp"
+#include "samples/height_grid.hpp"
+
+namespace tinsmith {
+
+/// A vertex of the mesh as the sweep needs it.
+struct Corner {
+  LatticePoint position;
+  double height = 0;
+};
+
+/// The side of a star's triangle opposite to its middle; (p, a, b) is counter-clockwise.
+struct Side {
+  Corner a;
+  Corner b;
+};
+using Star = std::vector<Side>;
+
+/// The heights of the middle vertex, relative to a reference, that all samples seen so far allow, with the
+/// samples that set the two ends, and the sums that give the squared error at any height.
+struct HeightInterval {
+  double lowest = -std::numeric_limits<double>::max();
+  double highest = std::numeric_limits<double>::max();
+  LatticePoint lowest_at;  // in samples
+  LatticePoint highest_at;
+  double sum_wr = 0;
+  double sum_ww = 0;
+  double sum_rr = 0;
+
+  bool is_empty() const { return lowest > highest; }
+  /// The least-squares height, held within the interval.
+  double best() const;
+  /// The sum over the samples of their squared error when the vertex has this height.
+  double squared_error(double height) const { return sum_rr + height * (height * sum_ww - 2 * sum_wr); }
+};
+
+/// What the sweep measures against. Heights are taken relative to `reference`, for precision.
+struct Bound {
+  const HeightGrid& samples;
+  double tolerance = 0;
+  double reference = 0;
+};
+
+/// Narrows the interval by the samples in the triangle (p, a, b), p being the new vertex: with the weight w of
+/// p at a sample and the residual r of the sample over the part that a and b bear,
+/// (r - tolerance) / w <= z_p <= (r + tolerance) / w. Stops early and returns false when the interval is empty.
+bool narrow(HeightInterval& interval, const Bound& bound, LatticePoint p, const Side& side);
+
+/// The heights that all samples under the star allow to a vertex at p; empty as soon as one contradicts.
+HeightInterval feasible_heights(const Star& star, const Bound& bound, LatticePoint p);
+
+/// Whether the two samples that set the ends of an earlier, empty interval alone leave no height at p either.
+bool is_still_empty(const HeightInterval& earlier, const Star& star, const Bound& bound, LatticePoint p);
+
+/// Half-space test, eq. 24 of the paper, in the horizontal plane: p strictly inside every side of the link.
+bool is_in_kernel(const Star& star, LatticePoint p);
+
+}  // namespace tinsmith
