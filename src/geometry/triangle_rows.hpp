@@ -74,6 +74,12 @@ struct TriangleRows {
   }
 };
 
+/// A point of a surface: plan position and height.
+struct Corner {
+  LatticePoint position;
+  double height = 0;
+};
+
 /// A height as an affine function of the plan position, in cells: z = z0 + dx * (x - x0) + dy * (y - y0).
 struct Plane {
   double x0 = 0;
@@ -84,16 +90,18 @@ struct Plane {
   double at(double x, double y) const { return z0 + dx * (x - x0) + dy * (y - y0); }
 };
 
-/// The plane through three points of the lattice that are not in line.
-inline Plane plane_through(LatticePoint a, double za, LatticePoint b, double zb, LatticePoint c, double zc) {
+/// The plane through three points that are not in line in plan.
+inline Plane plane_through(const Corner& a, const Corner& b, const Corner& c) {
   constexpr double kCell = 1.0 / kLatticePerCell;
-  const double bx = (b.x - a.x) * kCell;
-  const double by = (b.y - a.y) * kCell;
-  const double cx = (c.x - a.x) * kCell;
-  const double cy = (c.y - a.y) * kCell;
+  const double bx = (b.position.x - a.position.x) * kCell;
+  const double by = (b.position.y - a.position.y) * kCell;
+  const double cx = (c.position.x - a.position.x) * kCell;
+  const double cy = (c.position.y - a.position.y) * kCell;
+  const double bz = b.height - a.height;
+  const double cz = c.height - a.height;
   const double inverse = 1 / (bx * cy - by * cx);
-  return {a.x * kCell, a.y * kCell, za, ((zb - za) * cy - (zc - za) * by) * inverse,
-          ((zc - za) * bx - (zb - za) * cx) * inverse};
+  return {a.position.x * kCell, a.position.y * kCell, a.height, (bz * cy - cz * by) * inverse,
+          (cz * bx - bz * cx) * inverse};
 }
 
 }  // namespace tinsmith

@@ -97,6 +97,7 @@ class Rounds {
     report_.windows = results.size();
     report_.samples = report_.start_triangles = report_.full_triangles = 0;
     std::vector<Chunk> chunks;
+    chunks.reserve(results.size());
     for (FirstChunk& result : results) {
       report_.samples += result.samples;
       report_.start_triangles += result.start_triangles;
@@ -147,6 +148,7 @@ class Rounds {
 
 TerrainMesh surface_of(const std::vector<Chunk>& chunks) {
   std::vector<const Chunk*> parts;
+  parts.reserve(chunks.size());
   for (const Chunk& chunk : chunks) parts.push_back(&chunk);
   Chunk whole = weld(parts);
   WindowMesh mesh;

@@ -68,7 +68,7 @@ bool stays_between(const WindowMesh& mesh, std::int32_t v, LatticePoint p) {
 
 // Sum of the squared errors over the samples of a triangle; negative when one exceeds the tolerance.
 double squared_error(const RefineBound& bound, const Corner& a, const Corner& b, const Corner& c) {
-  const Plane plane = plane_through(a.position, a.height, b.position, b.height, c.position, c.height);
+  const Plane plane = plane_through(a, b, c);
   const TriangleRows rows(a.position, b.position, c.position);
   const GridRect& r = bound.samples.rect;
   double sum = 0;

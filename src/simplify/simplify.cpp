@@ -319,7 +319,7 @@ class Simplifier {
     const Corner a = corner(mesh_.origin[at(h)]);
     const Corner b = corner(mesh_.origin[at(n)]);
     const Corner c = corner(mesh_.destination(n));
-    const Plane plane = plane_through(a.position, a.height, b.position, b.height, c.position, c.height);
+    const Plane plane = plane_through(a, b, c);
     slope_[at(h / 3)] = {static_cast<float>(plane.dx), static_cast<float>(plane.dy),
                          static_cast<float>(orient(a.position, b.position, c.position))};
   }

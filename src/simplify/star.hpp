@@ -6,15 +6,10 @@
 #include <vector>
 
 #include "geometry/lattice.hpp"
+#include "geometry/triangle_rows.hpp"
 #include "samples/height_grid.hpp"
 
 namespace tinsmith {
-
-/// A vertex of the mesh as the sweep needs it.
-struct Corner {
-  LatticePoint position;
-  double height = 0;
-};
 
 /// The side of a star's triangle opposite to its middle; (p, a, b) is counter-clockwise.
 struct Side {

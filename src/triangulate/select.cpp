@@ -61,7 +61,7 @@ class Hierarchy {
     const LatticePoint b = mirrored ? t.c : t.b;
     const LatticePoint c = mirrored ? t.b : t.c;
     const Plane plane =
-        plane_through(scaled(t.a), za, scaled(b), samples_.at(b.x, b.y), scaled(c), samples_.at(c.x, c.y));
+        plane_through({scaled(t.a), za}, {scaled(b), samples_.at(b.x, b.y)}, {scaled(c), samples_.at(c.x, c.y)});
     const TriangleRows rows(scaled(t.a), scaled(b), scaled(c));
     for (std::int32_t y = rows.first_row; y <= rows.last_row; ++y) {
       const auto [first, last] = rows.columns(y);

@@ -161,7 +161,7 @@ class WindowTriangulation {
     const LatticePoint a = scaled(t[0]);
     const LatticePoint b = scaled(t[1]);
     const LatticePoint c = scaled(t[2]);
-    const Plane plane = plane_through(a, height(t[0]), b, height(t[1]), c, height(t[2]));
+    const Plane plane = plane_through({a, height(t[0])}, {b, height(t[1])}, {c, height(t[2])});
     // The plane meets its own corners but for the rounding, which inserting them again would not mend.
     const auto is_corner = [&](LatticePoint p) {
       return p == sample(t[0]) || p == sample(t[1]) || p == sample(t[2]);

@@ -161,7 +161,7 @@ TEST(PlaneThrough, GivesTheHeightsOfItsPointsAndBetweenThem) {
     if (std::abs(orient(t[0], t[1], t[2])) < 3000) continue;
     ++tested;
     const std::array<double, 3> z{height(random), height(random), height(random)};
-    const Plane plane = plane_through(t[0], z[0], t[1], z[1], t[2], z[2]);
+    const Plane plane = plane_through({t[0], z[0]}, {t[1], z[1]}, {t[2], z[2]});
     double mean_x = 0;
     double mean_y = 0;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -95,7 +95,10 @@ TEST_F(RasterFiles, ManyThreadsReadTheSameHeights) {
     const int r0 = t / 2 * (kSide - 1);
     recipe.geotransform = {30.0 * c0, 30, 0, -30.0 * r0, 0, -30};
     recipe.values.clear();
-    for (int i = 0; i < kSide * kSide; ++i) recipe.values.push_back((c0 + i % kSide) * 7 % 1000 + (r0 + i / kSide));
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const int row = i / kSide;
+      recipe.values.push_back((c0 + i % kSide) * 7 % 1000 + r0 + row);
+    }
     tiles.push_back(write("tile" + std::to_string(t) + ".tif", recipe));
   }
   const RasterField field(tiles, {});

@@ -113,7 +113,7 @@ TEST_F(RasterGrid, ControlPointsAloneAreRefusedWithTheWayOut) {
     GDALInitGCPs(static_cast<int>(points.size()), points.data());
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i].dfGCPPixel = static_cast<double>(i % 2) * 3;
-      points[i].dfGCPLine = static_cast<double>(i / 2) * 2;
+      points[i].dfGCPLine = i < 2 ? 0 : 2;
       points[i].dfGCPX = points[i].dfGCPPixel + static_cast<double>(i);
       points[i].dfGCPY = -points[i].dfGCPLine;
     }

@@ -23,7 +23,8 @@ using namespace test;
 HeightGrid roof(double height) {
   HeightGrid grid{{0, 0, 5, 5}, std::vector<double>(25)};
   for (int y = 0; y < 5; ++y) {
-    for (int x = 0; x < 5; ++x) grid.z[static_cast<std::size_t>(y * 5 + x)] = height * std::abs(x - y) / 4.0;
+    for (int x = 0; x < 5; ++x)
+      grid.z[static_cast<std::size_t>(y) * 5 + static_cast<std::size_t>(x)] = height * std::abs(x - y) / 4.0;
   }
   return grid;
 }

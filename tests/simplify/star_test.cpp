@@ -21,7 +21,7 @@ struct Case {
 
 // Largest error of the samples in the triangle when p has the height z.
 double error_at(const Case& c, const HeightGrid& grid, double z) {
-  const Plane plane = plane_through(c.p, z, c.a.position, c.a.height, c.b.position, c.b.height);
+  const Plane plane = plane_through({c.p, z}, c.a, c.b);
   double largest = 0;
   for (std::int32_t y = 0; y < grid.rect.height; ++y) {
     for (std::int32_t x = 0; x < grid.rect.width; ++x) {
@@ -93,7 +93,7 @@ TEST(ErrorBound, ItsSumsGiveTheLeastSquaresHeight) {
     if (interval.sum_ww == 0) continue;
     ++tested;
     const auto squares = [&](double z) {
-      const Plane plane = plane_through(c.p, z, c.a.position, c.a.height, c.b.position, c.b.height);
+      const Plane plane = plane_through({c.p, z}, c.a, c.b);
       const TriangleRows rows(c.p, c.a.position, c.b.position);
       double sum = 0;
       for (std::int32_t y = rows.first_row; y <= rows.last_row; ++y) {

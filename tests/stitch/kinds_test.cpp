@@ -19,7 +19,8 @@ constexpr auto kL = VertexKind::kLocked;
 
 HeightGrid flat(std::int32_t width, std::int32_t height, const std::vector<LatticePoint>& voids = {}) {
   HeightGrid grid = grid_of(width, height, [](int, int) { return 1.0; });
-  for (const LatticePoint p : voids) grid.z[static_cast<std::size_t>(p.y * width + p.x)] = kVoid;
+  for (const LatticePoint p : voids)
+    grid.z[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(p.x)] = kVoid;
   return grid;
 }
 

@@ -35,13 +35,16 @@ TEST(WindowGrid, GivesEveryCellToExactlyOneWindowWhoseSamplesHoldIt) {
           const GridRect rect = windows.samples(w, width, height);
           for (std::int32_t y = rect.y0; y < rect.y0 + rect.height - 1; ++y) {
             for (std::int32_t x = rect.x0; x < rect.x0 + rect.width - 1; ++x) {
-              ++times[static_cast<std::size_t>(y * width + x)];
+              ++times[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
               ASSERT_EQ(window_of_cell(windows, x, y), w);
             }
           }
         }
         for (std::int32_t y = 0; y + 1 < height; ++y) {
-          for (std::int32_t x = 0; x + 1 < width; ++x) ASSERT_EQ(times[static_cast<std::size_t>(y * width + x)], 1);
+          for (std::int32_t x = 0; x + 1 < width; ++x)
+            ASSERT_EQ(
+                times[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)],
+                1);
         }
       }
     }

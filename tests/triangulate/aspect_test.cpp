@@ -17,7 +17,7 @@ TEST(Aspect, NoTriangleLosesItsAreaHoweverOddTheCellsAre) {
   for (std::int32_t y = 0; y < kSide; ++y) {
     for (std::int32_t x = 0; x < kSide; ++x) {
       const bool is_void = (x * 7 + y * 13) % 31 == 0;
-      z[static_cast<std::size_t>(y * kSide + x)] =
+      z[static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x)] =
           is_void ? std::nan("") : 100 * std::sin(0.3 * x) * std::cos(0.2 * y);
     }
   }

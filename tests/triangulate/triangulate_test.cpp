@@ -159,7 +159,7 @@ TEST(Triangulate, BothSidesOfASeamAgreeAroundASingleVoid) {
     for (std::int32_t y = 0; y < 12; ++y) {
       SCOPED_TRACE(testing::Message() << "void at " << x << ", " << y);
       HeightGrid grid = whole;
-      grid.z[static_cast<std::size_t>(y * 17 + x)] = kVoid;
+      grid.z[static_cast<std::size_t>(y) * 17 + static_cast<std::size_t>(x)] = kVoid;
       expect_sides_agree(grid, 30, n_edges, n_ends);
     }
   }
