@@ -189,17 +189,34 @@ def best_peer_ratios(case, ours, key):
     return mine[key] / min(errors) if mine and errors else None
 
 
-def summary(cases, ours, one, two):
+def time_against(cases, two, leader):
+    """The wall time of an effort over that of the first one, case by case."""
+    return [median(whole(case, two), "wall") / median(whole(case, leader), "wall")
+            for case in cases if whole(case, two) and whole(case, leader)]
+
+
+def at_equal_count(cases, ours):
     lines = []
-    parts = [p for p in (fraction(case, ours) for case in cases) if p]
-    if parts:
-        lines.append(f"Triangles as a fraction of delatin's at the same certified tolerance: geometric mean "
-                     f"{geometric_mean(parts):.3f}, worst {max(parts):.3f}, of {len(parts)} cases.")
     for key, name in (("max_error", "Max error"), ("rmse", "RMSE")):
         ratios = [r for r in (best_peer_ratios(case, ours, key) for case in cases) if r]
         if ratios:
             lines.append(f"{name} over that of the best count-driven peer at equal triangles: geometric mean "
                          f"{geometric_mean(ratios):.3f}, worst {max(ratios):.3f}.")
+    return lines
+
+
+def summary(cases, one, two, leader):
+    """`leader` is the first effort with two threads: the count-driven peers ran at its triangles."""
+    lines = []
+    parts = [p for p in (fraction(case, one) for case in cases) if p]
+    if parts:
+        lines.append(f"Triangles as a fraction of delatin's at the same certified tolerance: geometric mean "
+                     f"{geometric_mean(parts):.3f}, worst {max(parts):.3f}, of {len(parts)} cases.")
+    if two == leader:
+        lines += at_equal_count(cases, one)
+    elif times := time_against(cases, two, leader):
+        lines.append(f"Wall time over that of the first effort (2 threads): geometric mean "
+                     f"{geometric_mean(times):.2f}, worst {max(times):.2f}.")
     equal, total = same_bytes(cases, one, two)
     lines.append(f"The same bytes from 1 and 2 threads and from every repetition: {equal} of {total} cases.")
     differences = cross_checks(cases)
@@ -221,25 +238,27 @@ def made_by(document, all_tools):
             f"Versions: {versions}.\n\n" + table(["tool", "command"], commands))
 
 
-def input_section(name, cases, ours):
-    one, two = ours
+def input_section(cases, one, two, leader):
+    name = cases[0]["input"]
     width, height = cases[0]["size"]
     text = f"\n## {name}: {width} x {height} samples\n\n"
     if cases[0]["has_voids"]:
         text += FILLED + "\n"
     text += quality_table(cases, one) + "\n" + time_table(cases, one, two)
-    at_equal_count = count_table(cases, one, two)
-    return text + ("\nAt equal triangles:\n\n" + at_equal_count if at_equal_count else "")
+    count_driven = count_table(cases, one, two) if two == leader else ""
+    return text + ("\nAt equal triangles:\n\n" + count_driven if count_driven else "")
 
 
 def markdown(document, efforts):
     """RESULTS.md: for each effort a summary and, for each input, the three tables."""
     all_tools = tools.tinsmith_tools(efforts) + tools.TOLERANCE_DRIVEN + tools.COUNT_DRIVEN
     text = "# Measured beside the peers\n\n" + made_by(document, all_tools) + "\n" + KNOWN
+    cases = document["cases"]
+    leader = tools.tinsmith_tools(efforts)[1].name
     for effort in efforts:
-        ours = [tool.name for tool in tools.tinsmith_tools([effort])]
+        one, two = (tool.name for tool in tools.tinsmith_tools([effort]))
         text += f"\n# Effort {effort}\n\n" if len(efforts) > 1 else "\n"
-        text += summary(document["cases"], ours[0], *ours)
-        for name in dict.fromkeys(case["input"] for case in document["cases"]):
-            text += input_section(name, [case for case in document["cases"] if case["input"] == name], ours)
+        text += summary(cases, one, two, leader)
+        for name in dict.fromkeys(case["input"] for case in cases):
+            text += input_section([case for case in cases if case["input"] == name], one, two, leader)
     return text
