@@ -55,18 +55,19 @@ std::array<double, 2> height_range(const HeightField& field) {
   return {low, high};
 }
 
-// What is left of the tolerance when the format has rounded the heights; vertical units.
-double tolerance_for_format(const HeightField& field, const std::string& output, double tolerance) {
-  if (height_rounding(output, 0, 1) == 0) return tolerance;
+// How much the format may change a height of the result, in vertical units. Vertices keep to the heights of the
+// samples, give or take the tolerance; the format may put its origin on a whole number.
+double rounding_of_format(const HeightField& field, const std::string& output, double tolerance) {
+  if (output.empty() || height_rounding(output, 0, 1) == 0) return 0;
   const auto [low, high] = height_range(field);
-  if (!(low <= high)) return tolerance;
-  const double rounding = height_rounding(output, low, high);
+  if (!(low <= high)) return 0;
+  const double rounding = height_rounding(output, low - tolerance - 1, high + tolerance + 1);
   if (tolerance < 4 * rounding)
     throw ResourceError(
         fmt::format("{}: float32 heights are off by up to {:.3g}, too much for this tolerance; "
                     "write .ply, which keeps doubles, or raise the tolerance",
                     output, rounding));
-  return tolerance - rounding;
+  return rounding;
 }
 
 void require_triangles(const TerrainMesh& surface) {
@@ -81,9 +82,10 @@ TerrainMesh compress_field(const HeightField& field, const GridFrame& frame, con
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, thread_count(options));
   const double unit = frame.metres_per_vertical_unit;
   const auto run = [&](double tolerance, CompressReport& of_run) {
-    const double allowed = output.empty() ? tolerance : tolerance_for_format(field, output, tolerance);
-    TerrainMesh surface = run_rounds(field, frame, {allowed, options.window, options.placement, options.effort},
-                                     options.progress, of_run);
+    const double rounding = rounding_of_format(field, output, tolerance);
+    TerrainMesh surface =
+        run_rounds(field, frame, {tolerance - rounding, options.window, options.placement, options.effort},
+                   options.progress, of_run);
     require_triangles(surface);
     of_run.tolerance = tolerance * unit;
     return surface;

@@ -67,8 +67,8 @@ TerrainMesh search_tolerance(const RunAtTolerance& run, std::optional<double> tr
   }
   if (!coarse)
     throw ResultError(
-        fmt::format("{} triangles remain at any tolerance, for the outline of the valid area alone; "
-                    "ask for at least as many",
+        fmt::format("{} triangles remain at any tolerance, for the outline of the valid area and the "
+                    "windows' size; ask for at least as many, or choose a larger window",
                     fine->triangles));
   return best;
 }

@@ -98,6 +98,8 @@ bool narrow(HeightInterval& interval, const Bound& bound, LatticePoint p, const 
       now.sum_wr += weight * r;
       now.sum_ww += weight * weight;
       now.sum_rr += r * r;
+      now.lowest_sample = std::min(now.lowest_sample, z[i]);
+      now.highest_sample = std::max(now.highest_sample, z[i]);
       if (!narrow_by(now, weight, r, bound.tolerance, {first + i, y})) {
         interval = now;
         return false;
@@ -111,7 +113,11 @@ bool narrow(HeightInterval& interval, const Bound& bound, LatticePoint p, const 
 HeightInterval feasible_heights(const Star& star, const Bound& bound, LatticePoint p) {
   HeightInterval interval;
   for (const Side& side : star) {
-    if (!narrow(interval, bound, p, side)) break;
+    if (!narrow(interval, bound, p, side)) return interval;
+  }
+  if (interval.lowest_sample <= interval.highest_sample) {
+    interval.lowest = std::max(interval.lowest, interval.lowest_sample - bound.tolerance - bound.reference);
+    interval.highest = std::min(interval.highest, interval.highest_sample + bound.tolerance - bound.reference);
   }
   return interval;
 }

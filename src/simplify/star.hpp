@@ -28,6 +28,8 @@ struct HeightInterval {
   double sum_wr = 0;
   double sum_ww = 0;
   double sum_rr = 0;
+  double lowest_sample = std::numeric_limits<double>::max();  // as measured
+  double highest_sample = -std::numeric_limits<double>::max();
 
   bool is_empty() const { return lowest > highest; }
   /// The least-squares height, held within the interval.
@@ -48,7 +50,9 @@ struct Bound {
 /// (r - tolerance) / w <= z_p <= (r + tolerance) / w. Stops early and returns false when the interval is empty.
 bool narrow(HeightInterval& interval, const Bound& bound, LatticePoint p, const Side& side);
 
-/// The heights that all samples under the star allow to a vertex at p; empty as soon as one contradicts.
+/// The heights that all samples under the star allow to a vertex at p; empty as soon as one contradicts. Between
+/// samples a vertex could be anywhere: it keeps to the heights of the star's samples, give or take the tolerance,
+/// so that there are no spikes.
 HeightInterval feasible_heights(const Star& star, const Bound& bound, LatticePoint p);
 
 /// Whether the two samples that set the ends of an earlier, empty interval alone leave no height at p either.
