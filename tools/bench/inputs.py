@@ -77,5 +77,8 @@ def calibrate(build, name, paths):
 
 
 def _compress(build, paths, goal):
-    command = [tinsmith, "compress", *paths, "/dev/shm/tinsmith_bench.ply", *goal, "--no-verify", "--json", "-"]
-    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    mesh = build / "inputs/calibration.ply"
+    command = [build / "tinsmith", "compress", *paths, mesh, *goal, "--no-verify", "--json", "-"]
+    report = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    mesh.unlink()
+    return report
