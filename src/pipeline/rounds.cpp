@@ -150,14 +150,9 @@ TerrainMesh surface_of(const std::vector<Chunk>& chunks) {
   std::vector<const Chunk*> parts;
   parts.reserve(chunks.size());
   for (const Chunk& chunk : chunks) parts.push_back(&chunk);
-  Chunk whole = weld(parts);
-  WindowMesh mesh;
-  mesh.position = std::move(whole.position);
-  mesh.height = std::move(whole.height);
-  mesh.is_settled = std::move(whole.is_settled);
-  connect(mesh, whole.triangles);
+  WindowMesh mesh = mesh_of(weld(parts));
   TerrainMesh surface;
-  surface.triangles.reserve(whole.triangles.size());
+  surface.triangles.reserve(mesh.origin.size() / 3);
   for (std::size_t h = 0; h < mesh.origin.size(); h += 3) {
     const auto name = [&](std::size_t k) { return static_cast<std::uint32_t>(mesh.origin[h + k]); };
     surface.triangles.push_back({name(0), name(1), name(2)});

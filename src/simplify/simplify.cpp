@@ -19,8 +19,11 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// More triangles than this around one vertex are slow to walk and make slivers.
+// More triangles than this around one vertex are slow to walk. A guard: on the sample terrain at 5 and 50 m 24, 32
+// and 256 give the same mesh.
 constexpr std::size_t kMaxStar = 64;
+
+// One run over one mesh: the loop, and all that it remembers of vertices, edges and triangles.
 class Simplifier {
  public:
   Simplifier(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options)

@@ -40,15 +40,6 @@ void count_valid(const HeightGrid& samples, const GridRect& window, const Height
   }
 }
 
-WindowMesh mesh_of(Chunk&& chunk) {
-  WindowMesh mesh;
-  mesh.position = std::move(chunk.position);
-  mesh.height = std::move(chunk.height);
-  mesh.is_settled = std::move(chunk.is_settled);
-  connect(mesh, chunk.triangles);
-  return mesh;
-}
-
 GridRect rect_of(const std::vector<LatticePoint>& positions) {
   LatticePoint low = positions.front();
   LatticePoint high = low;

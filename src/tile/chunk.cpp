@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace tinsmith {
 
@@ -58,6 +59,15 @@ void settle(std::vector<std::uint8_t>& is_settled, const WindowMesh& mesh) {
 }
 
 }  // namespace
+
+WindowMesh mesh_of(Chunk&& chunk) {
+  WindowMesh mesh;
+  mesh.position = std::move(chunk.position);
+  mesh.height = std::move(chunk.height);
+  mesh.is_settled = std::move(chunk.is_settled);
+  connect(mesh, chunk.triangles);
+  return mesh;
+}
 
 Chunk chunk_of(const WindowMesh& mesh) {
   Chunk all{mesh.position, mesh.height, mesh.is_settled, {}};

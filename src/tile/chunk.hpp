@@ -21,6 +21,9 @@ struct Chunk {
   bool is_empty() const { return triangles.empty(); }
 };
 
+/// A chunk's triangles with their neighbours; kinds are not set.
+WindowMesh mesh_of(Chunk&& chunk);
+
 /// The live part of a mesh. Settled from now on is what was free and had no locked neighbour.
 Chunk chunk_of(const WindowMesh& mesh);
 
