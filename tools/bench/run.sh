@@ -23,7 +23,7 @@ say "building into ${build#"$PWD"/}"
 mkdir -p "$build/node"
 cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTINSMITH_TESTS=OFF -DTINSMITH_BENCH=ON \
   >"$build/configure.log" 2>&1 || { cat "$build/configure.log" >&2; die "cmake could not configure $build: see above"; }
-cmake --build "$build" --target tinsmith_cli make_terrain dump cgal_peer meshopt_peer >&2 ||
+cmake --build "$build" --target tinsmith_cli make_terrain dump cgal_peer meshopt_peer micro_bench >&2 ||
   die 'the build failed: see above'
 
 cp "$bench"/peers/*.mjs "$bench/peers/package.json" "$build/node/"
