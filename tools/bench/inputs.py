@@ -66,6 +66,8 @@ def calibrate(build, name, paths):
     for share in SHARES:
         # A triangulation has about two triangles a vertex, and so has the full grid.
         found = _compress(build, paths, ["--ratio", str(share)])
+        if found is None:
+            continue
         tolerance = float(f"{found['tolerance']:.2g}")
         kept = _compress(build, paths, ["--max-error", str(tolerance)])
         entries.append({"tolerance": tolerance, "share": round(kept["vertices"] / kept["samples"], 5)})
@@ -77,8 +79,13 @@ def calibrate(build, name, paths):
 
 
 def _compress(build, paths, goal):
+    """The report; None, and why, when there is no such result (a ragged outline alone may need more triangles)."""
     mesh = build / "inputs/calibration.ply"
     command = [build / "tinsmith", "compress", *paths, mesh, *goal, "--no-verify", "--json", "-"]
-    report = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
-    mesh.unlink()
-    return report
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    mesh.unlink(missing_ok=True)
+    if done.returncode == 1:
+        print(done.stderr.strip())
+        return None
+    done.check_returncode()
+    return json.loads(done.stdout)
