@@ -91,7 +91,7 @@ double squared_error(const RefineBound& bound, const Corner& a, const Corner& b,
 bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, Star& star) {
   if (!bound.may_move || mesh.kind[at(v)] == VertexKind::kLocked) return false;
   const std::int32_t step = gather(mesh, v, star);
-  const Bound star_bound{bound.samples, bound.tolerance, mesh.height[at(v)]};
+  Bound star_bound{bound.samples, bound.tolerance, mesh.height[at(v)]};
   const LatticePoint p = mesh.position[at(v)];
   const HeightInterval here = feasible_heights(star, star_bound, p);
   if (here.is_empty()) return false;  // by rounding only
@@ -102,6 +102,7 @@ bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, 
   for (std::size_t i = 0; i < where.n; ++i) {
     const LatticePoint q{p.x + where.list[i].x, p.y + where.list[i].y};
     if (!is_in_kernel(star, q) || !stays_between(mesh, v, q)) continue;
+    star_bound.squared_limit = least;
     const HeightInterval there = feasible_heights(star, star_bound, q);
     if (there.is_empty() || there.squared_error(there.best()) >= least) continue;
     best = {q, there.best()};

@@ -43,17 +43,17 @@ struct Bound {
   const HeightGrid& samples;
   double tolerance = 0;
   double reference = 0;
+  double squared_limit = std::numeric_limits<double>::infinity();  // no height may have a larger squared error
 };
 
-/// Narrows the interval by the samples in the triangle (p, a, b), p being the new vertex: with the weight w of
-/// p at a sample and the residual r of the sample over the part that a and b bear,
-/// (r - tolerance) / w <= z_p <= (r + tolerance) / w. Stops early and returns false when the interval is empty.
-bool narrow(HeightInterval& interval, const Bound& bound, LatticePoint p, const Side& side);
-
-/// The heights that all samples under the star allow to a vertex at p; empty as soon as one contradicts. Between
-/// samples a vertex could be anywhere: it keeps to the heights of the star's samples, give or take the tolerance,
-/// so that there are no spikes.
+/// The heights that all samples under the star allow to a vertex at p; empty as soon as one contradicts. With the
+/// weight w of the vertex at a sample, and the residual r of the sample over what the other corners bear there,
+/// (r - tolerance) / w <= z_p <= (r + tolerance) / w. Between samples a vertex could be anywhere: it keeps to the
+/// heights of the star's samples, give or take the tolerance, so that there are no spikes.
 HeightInterval feasible_heights(const Star& star, const Bound& bound, LatticePoint p);
+
+/// The same to the bit, with the instructions that every machine has.
+HeightInterval feasible_heights_portable(const Star& star, const Bound& bound, LatticePoint p);
 
 /// Whether the two samples that set the ends of an earlier, empty interval alone leave no height at p either.
 bool is_still_empty(const HeightInterval& earlier, const Star& star, const Bound& bound, LatticePoint p);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <vector>
 
 #include "geometry/triangle_rows.hpp"
 #include "support/random_grid.hpp"
@@ -19,19 +22,38 @@ struct Case {
   double reference = 0;
 };
 
+// The samples that the height of p bears on: those in the triangle, but for its far side.
+std::vector<LatticePoint> samples_under(const Case& c, const HeightGrid& grid) {
+  std::vector<LatticePoint> result;
+  for (std::int32_t y = 0; y < grid.rect.height; ++y) {
+    for (std::int32_t x = 0; x < grid.rect.width; ++x) {
+      const LatticePoint s{x * kLatticePerCell, y * kLatticePerCell};
+      if (orient(c.p, c.a.position, s) >= 0 && orient(c.a.position, c.b.position, s) > 0 &&
+          orient(c.b.position, c.p, s) >= 0)
+        result.push_back({x, y});
+    }
+  }
+  return result;
+}
+
 // Largest error of the samples in the triangle when p has the height z.
 double error_at(const Case& c, const HeightGrid& grid, double z) {
   const Plane plane = plane_through({c.p, z}, c.a, c.b);
   double largest = 0;
-  for (std::int32_t y = 0; y < grid.rect.height; ++y) {
-    for (std::int32_t x = 0; x < grid.rect.width; ++x) {
-      const LatticePoint s{x * kLatticePerCell, y * kLatticePerCell};
-      const bool is_in = orient(c.p, c.a.position, s) >= 0 && orient(c.a.position, c.b.position, s) > 0 &&
-                         orient(c.b.position, c.p, s) >= 0;  // the far side is not the new vertex's to mend
-      if (is_in) largest = std::max(largest, std::abs(plane.at(x, y) - grid.at(x, y)));
-    }
-  }
+  for (const auto [x, y] : samples_under(c, grid))
+    largest = std::max(largest, std::abs(plane.at(x, y) - grid.at(x, y)));
   return largest;
+}
+
+// A vertex keeps to the heights of the samples around it, give or take the tolerance.
+bool is_spike(const Case& c, const HeightGrid& grid, double tolerance, double z) {
+  double lowest = std::numeric_limits<double>::max();
+  double highest = -lowest;
+  for (const auto [x, y] : samples_under(c, grid)) {
+    lowest = std::min(lowest, grid.at(x, y));
+    highest = std::max(highest, grid.at(x, y));
+  }
+  return z < lowest - tolerance - 1e-9 || z > highest + tolerance + 1e-9;
 }
 
 Case draw(std::mt19937_64& random, const HeightGrid& grid) {
@@ -58,22 +80,23 @@ TEST(ErrorBound, ItsIntervalIsExactlyTheHeightsWithinTheTolerance) {
   for (int i = 0; i < 4'000; ++i) {
     const Case c = draw(random, grid);
     if (orient(c.p, c.a.position, c.b.position) < 500) continue;
-    HeightInterval interval;
-    if (narrow(interval, {grid, kTolerance, c.reference}, c.p, {c.a, c.b})) {
+    const HeightInterval interval = feasible_heights({{c.a, c.b}}, {grid, kTolerance, c.reference}, c.p);
+    const auto is_feasible = [&](double dz) {
+      return error_at(c, grid, c.reference + dz) <= kTolerance && !is_spike(c, grid, kTolerance, c.reference + dz);
+    };
+    if (!interval.is_empty()) {
       if (interval.sum_ww == 0) continue;  // no sample inside
       ++n_feasible;
-      EXPECT_FALSE(interval.is_empty());
       for (const double share : {0.001, 0.5, 0.999}) {
         const double dz = interval.lowest + share * (interval.highest - interval.lowest);
         EXPECT_LE(error_at(c, grid, c.reference + dz), kTolerance + 1e-6) << "seed 231, case " << i;
       }
       const double beyond = 1e-3 + 1e-3 * (interval.highest - interval.lowest);
-      EXPECT_GT(error_at(c, grid, c.reference + interval.highest + beyond), kTolerance) << "seed 231, case " << i;
-      EXPECT_GT(error_at(c, grid, c.reference + interval.lowest - beyond), kTolerance) << "seed 231, case " << i;
+      EXPECT_FALSE(is_feasible(interval.highest + beyond)) << "seed 231, case " << i;
+      EXPECT_FALSE(is_feasible(interval.lowest - beyond)) << "seed 231, case " << i;
     } else {
       ++n_refused;
-      for (double dz = -400; dz <= 400; dz += 5)
-        EXPECT_GT(error_at(c, grid, c.reference + dz), kTolerance) << "seed 231, case " << i;
+      for (double dz = -400; dz <= 400; dz += 5) EXPECT_FALSE(is_feasible(dz)) << "seed 231, case " << i;
     }
   }
   EXPECT_GT(n_feasible, 500);
@@ -88,8 +111,8 @@ TEST(ErrorBound, ItsSumsGiveTheLeastSquaresHeight) {
   for (int i = 0; i < 500; ++i) {
     const Case c = draw(random, grid);
     if (orient(c.p, c.a.position, c.b.position) < 2000) continue;
-    HeightInterval interval;
-    ASSERT_TRUE(narrow(interval, {grid, 1e6, c.reference}, c.p, {c.a, c.b}));
+    const HeightInterval interval = feasible_heights({{c.a, c.b}}, {grid, 1e6, c.reference}, c.p);
+    ASSERT_FALSE(interval.is_empty());
     if (interval.sum_ww == 0) continue;
     ++tested;
     const auto squares = [&](double z) {
@@ -109,6 +132,49 @@ TEST(ErrorBound, ItsSumsGiveTheLeastSquaresHeight) {
     EXPECT_LE(squares(best), squares(best - 0.05)) << "seed 232, case " << i;
   }
   EXPECT_GT(tested, 200);
+}
+
+// The output may not depend on the machine's instruction set.
+TEST(ErrorBound, IsTheSameToTheBitWithEveryInstructionSet) {
+  const HeightGrid grid = grid_of(20, 20, [](int x, int y) { return 40 * std::sin(0.3 * x) + 3.3 * y; });
+  std::mt19937_64 random(233);
+  for (int i = 0; i < 4'000; ++i) {
+    const Case c = draw(random, grid);
+    if (orient(c.p, c.a.position, c.b.position) <= 0) continue;
+    const Bound bound{grid, 25, c.reference};
+    const Star star{{c.a, c.b}};
+    const HeightInterval here = feasible_heights(star, bound, c.p);
+    const HeightInterval anywhere = feasible_heights_portable(star, bound, c.p);
+    const auto numbers = [](const HeightInterval& h) {
+      return std::array{h.lowest, h.highest, h.sum_wr, h.sum_ww, h.sum_rr};
+    };
+    EXPECT_EQ(numbers(here), numbers(anywhere)) << "seed 233, case " << i;
+    EXPECT_EQ(here.lowest_at, anywhere.lowest_at) << "seed 233, case " << i;
+    EXPECT_EQ(here.highest_at, anywhere.highest_at) << "seed 233, case " << i;
+  }
+}
+
+// With a limit a star is refused exactly when its best height has a larger squared error.
+TEST(ErrorBound, RefusesStarsThatExceedTheSquaredLimit) {
+  const HeightGrid grid = grid_of(20, 20, [](int x, int y) { return 40 * std::sin(0.3 * x) + 3 * y; });
+  std::mt19937_64 random(234);
+  int n_refused = 0;
+  int n_kept = 0;
+  for (int i = 0; i < 4'000; ++i) {
+    const Case c = draw(random, grid);
+    if (orient(c.p, c.a.position, c.b.position) < 500) continue;
+    Bound bound{grid, 1e6, c.reference};
+    const HeightInterval all = feasible_heights({{c.a, c.b}}, bound, c.p);
+    if (all.sum_ww == 0) continue;
+    const double least = all.squared_error(all.best());
+    bound.squared_limit = 50;
+    if (std::abs(least - bound.squared_limit) < 1e-6) continue;
+    const HeightInterval limited = feasible_heights({{c.a, c.b}}, bound, c.p);
+    EXPECT_EQ(limited.is_empty(), least > bound.squared_limit) << "seed 234, case " << i;
+    ++(limited.is_empty() ? n_refused : n_kept);
+  }
+  EXPECT_GT(n_refused, 200);
+  EXPECT_GT(n_kept, 200);
 }
 
 }  // namespace
