@@ -35,13 +35,15 @@ class Simplifier {
         quadric_(mesh.position.size()),
         vertex_(mesh.position.size()),
         edge_(mesh.origin.size()),
-        mark_(mesh.position.size(), 0) {}
+        mark_(mesh.position.size(), 0),
+        queue_(mesh.position.size()) {}
 
   SimplifyCounts run() {
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); h += 3) measure_slope(h);
     for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
       if (!mesh_.is_alive(v) || (options_.only_unsettled && mesh_.is_settled[at(v)])) continue;
       vertex_[at(v)].version = 1;  // 0: nothing has changed around it since the round before
+      vertex_[at(v)].is_refined = false;
       queue_best(v);
     }
     collapse_all();
@@ -53,17 +55,17 @@ class Simplifier {
   }
 
  private:
-  using Queue = BucketQueue<std::int32_t>;
-  static constexpr std::size_t kNoBucket = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t kNoClass = std::numeric_limits<std::size_t>::max();
+  static constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   static constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 
   struct VertexState {
     std::uint32_t version = 0;  // grows when the star changes
-    std::uint32_t quadric_version = kNever;
-    std::uint32_t best_version = kNever;  // own version when the best edge was found
-    std::uint32_t refined_at = 0;         // version in which it was refined
-    std::int32_t best = kNone;            // halfedge of the cheapest edge not refused
+    std::int32_t best = kNone;  // halfedge of the cheapest edge not refused
+    bool is_best_known = false;
+    bool is_quadric_known = false;
     bool is_queued = false;
+    bool is_refined = true;
   };
 
   // Of a triangle: height units per cell, and twice the area in lattice units.
@@ -73,19 +75,17 @@ class Simplifier {
     float area = 0;
   };
 
-  // Valid while the sum of the versions of the edge's ends is the one noted.
   struct EdgeState {
-    std::uint32_t refused_at = kNever;
-    std::uint32_t cost_at = kNever;
-    float cost = 0;
+    float cost = kUnknown;  // of when one of its ends moved last: what has changed beside them matters less
+    std::uint32_t refused_at = kNever;  // until one of its ends changes: then the sum of their versions has grown
   };
 
   void collapse_all() {
     std::int32_t v = kNone;
-    std::size_t bucket = 0;
-    while (queue_.pop(v, bucket)) {
+    std::size_t cost_class = 0;
+    while (queue_.pop(v, cost_class)) {
       vertex_[at(v)].is_queued = false;
-      if (mesh_.is_alive(v)) try_best(v, bucket);
+      if (mesh_.is_alive(v)) try_best(v, cost_class);
     }
   }
 
@@ -94,8 +94,8 @@ class Simplifier {
   void refine() {
     const RefineBound bound{samples_, options_.tolerance, options_.placement == Placement::kOptimal};
     for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
-      if (!mesh_.is_alive(v) || vertex_[at(v)].refined_at == vertex_[at(v)].version) continue;
-      vertex_[at(v)].refined_at = vertex_[at(v)].version;
+      if (!mesh_.is_alive(v) || vertex_[at(v)].is_refined) continue;
+      vertex_[at(v)].is_refined = true;
       if (!improve_vertex(mesh_, bound, v, star_)) continue;
       ++counts_.moves;
       refresh_star(v, 0);
@@ -112,50 +112,47 @@ class Simplifier {
     for (const std::int32_t e : {h, mesh_.twin[at(h)]}) {
       measure_slope(e);
       for (const std::int32_t side : {e, WindowMesh::next(e), WindowMesh::previous(e)}) {
-        edge_[at(edge_of(side))] = {};
+        edge(side) = {};
         change(mesh_.origin[at(side)], 0);
       }
     }
   }
 
-  // The triangles around v have changed.
-  void refresh_star(std::int32_t v, std::size_t bucket) {
+  // v has moved.
+  void refresh_star(std::int32_t v, std::size_t cost_class) {
     for_each_out(mesh_, v, [&](std::int32_t h) { measure_slope(h); });
-    change(v, bucket);
-    for_each_edge(v, [&](std::int32_t e) { change(other_end(e, v), bucket); });
+    change(v, cost_class);
+    for_each_edge(v, [&](std::int32_t e) {
+      edge(e) = {};
+      change(other_end(e, v), cost_class);
+    });
   }
 
   // ---- the queue: each vertex waits under the cost of its best edge. A vertex whose star has changed keeps
   // its place and is looked at anew when its turn comes: costs mostly grow, and many change several times.
 
-  // An edge is refused until one of its ends changes: then the sum of their versions has grown.
   std::uint32_t edge_version(std::int32_t h) const {
     return vertex_[at(mesh_.origin[at(h)])].version + vertex_[at(mesh_.destination(h))].version;
   }
-  std::int32_t edge_of(std::int32_t h) const { return std::max(h, mesh_.twin[at(h)]); }
+  EdgeState& edge(std::int32_t h) { return edge_[at(std::max(h, mesh_.twin[at(h)]))]; }
 
   EdgeEnd end(std::int32_t v) {
-    VertexState& state = vertex_[at(v)];
-    if (state.quadric_version != state.version) {
+    if (!vertex_[at(v)].is_quadric_known) {
       sum_quadric(v);
-      state.quadric_version = state.version;
+      vertex_[at(v)].is_quadric_known = true;
     }
     return {mesh_.position[at(v)], mesh_.height[at(v)], mesh_.kind[at(v)], &quadric_[at(v)]};
   }
 
-  Edge edge(std::int32_t h) {
+  Edge placed_edge(std::int32_t h) {
     return {end(mesh_.origin[at(h)]), end(mesh_.destination(h)), mesh_.is_border_edge(h)};
   }
 
-  bool is_refused(std::int32_t h) const { return edge_[at(edge_of(h))].refused_at == edge_version(h); }
+  bool is_refused(std::int32_t h) { return edge(h).refused_at == edge_version(h); }
 
   float cost(std::int32_t h) {
-    EdgeState& state = edge_[at(edge_of(h))];
-    const std::uint32_t version = edge_version(h);
-    if (state.cost_at != version) {
-      state.cost_at = version;
-      state.cost = static_cast<float>(edge_cost(edge(h), rules_));
-    }
+    EdgeState& state = edge(h);
+    if (std::isnan(state.cost)) state.cost = static_cast<float>(edge_cost(placed_edge(h), rules_));
     return state.cost;
   }
 
@@ -170,7 +167,7 @@ class Simplifier {
     if (mesh_.turn(last) == kNone) f(WindowMesh::previous(last));
   }
 
-  // The bucket of the cheapest edge of v that is not refused; kNoBucket when there is none.
+  // The class of the cheapest edge of v that is not refused; kNoClass when there is none.
   std::size_t find_best(std::int32_t v) {
     float best_cost = std::numeric_limits<float>::infinity();
     std::int32_t best = kNone;
@@ -182,41 +179,41 @@ class Simplifier {
       best = h;
     });
     vertex_[at(v)].best = best;
-    vertex_[at(v)].best_version = vertex_[at(v)].version;
-    return best == kNone ? kNoBucket : Queue::bucket_of(best_cost);
+    vertex_[at(v)].is_best_known = true;
+    return best == kNone ? kNoClass : BucketQueue::class_of(best_cost);
   }
 
-  void queue(std::int32_t v, std::size_t bucket) {
-    if (bucket == kNoBucket || vertex_[at(v)].is_queued) return;
+  void queue(std::int32_t v, std::size_t cost_class) {
+    if (cost_class == kNoClass || vertex_[at(v)].is_queued) return;
     vertex_[at(v)].is_queued = true;
-    queue_.push(bucket, v);
+    queue_.push(cost_class, v);
   }
   void queue_best(std::int32_t v) { queue(v, find_best(v)); }
 
-  void try_best(std::int32_t v, std::size_t bucket) {
-    if (vertex_[at(v)].best_version != vertex_[at(v)].version) {
+  void try_best(std::int32_t v, std::size_t cost_class) {
+    if (!vertex_[at(v)].is_best_known) {
       const std::size_t now = find_best(v);
-      if (now > bucket) {
+      if (now > cost_class) {
         queue(v, now);
         return;
       }
     }
     const std::int32_t h = vertex_[at(v)].best;
-    if (!is_refused(h) && Queue::bucket_of(cost(h)) <= bucket) {
-      if (collapse(h, bucket)) return;
-      edge_[at(edge_of(h))].refused_at = edge_version(h);
+    if (!is_refused(h) && BucketQueue::class_of(cost(h)) <= cost_class) {
+      if (collapse(h, cost_class)) return;
+      edge(h).refused_at = edge_version(h);
     }
     queue_best(v);
   }
 
   // ---- one collapse
 
-  bool collapse(std::int32_t h, std::size_t bucket) {
+  bool collapse(std::int32_t h, std::size_t cost_class) {
     if (!gather_star(h) || !is_linked(h)) {
       ++counts_.refused_topology;
       return false;
     }
-    const Candidates c = place(edge(h), rules_);
+    const Candidates c = place(placed_edge(h), rules_);
     HeightInterval refusal;
     bool in_kernel = false;
     for (int i = 0; i < c.n; ++i) {
@@ -233,7 +230,7 @@ class Simplifier {
       }
       if (candidate.has_fixed_height && !(interval.lowest <= 0 && 0 <= interval.highest)) continue;
       const double offset = candidate.has_fixed_height ? 0 : interval.best();
-      apply(h, {candidate.position, candidate.height + offset}, bucket);
+      apply(h, {candidate.position, candidate.height + offset}, cost_class);
       return true;
     }
     ++(in_kernel ? counts_.refused_bound : counts_.refused_half_space);
@@ -280,31 +277,24 @@ class Simplifier {
     return has_neighbour(h) && (mesh_.is_border_edge(h) || has_neighbour(mesh_.twin[at(h)]));
   }
 
-  void apply(std::int32_t h, const Place& place, std::size_t bucket) {
+  void apply(std::int32_t h, const Place& place, std::size_t cost_class) {
     ++counts_.collapses;
     // The survivor is the end of the higher kind: a locked vertex is known elsewhere by its place.
     const std::int32_t v0 = mesh_.origin[at(h)];
     const std::int32_t v1 = mesh_.destination(h);
     const std::int32_t kept = mesh_.kind[at(v0)] > mesh_.kind[at(v1)] ? v0 : v1;
     const std::int32_t gone = kept == v0 ? v1 : v0;
-    forget_sides(h);
-    if (!mesh_.is_border_edge(h)) forget_sides(mesh_.twin[at(h)]);
     collapse_edge(mesh_, h, kept, place);
-    // Higher than either was: edges that change hands must not look like what they were.
+    // Higher than either was: edges that change hands must not look refused.
     vertex_[at(kept)].version = std::max(vertex_[at(kept)].version, vertex_[at(gone)].version);
-    refresh_star(kept, bucket);
+    refresh_star(kept, cost_class);
   }
 
-  // The outer halfedges beside the triangle of h are about to be the two halves of one edge.
-  void forget_sides(std::int32_t h) {
-    for (const std::int32_t side : {WindowMesh::next(h), WindowMesh::previous(h)}) {
-      if (!mesh_.is_border_edge(side)) edge_[at(mesh_.twin[at(side)])] = {};
-    }
-  }
-
-  void change(std::int32_t v, std::size_t bucket) {
-    ++vertex_[at(v)].version;
-    queue(v, bucket);
+  void change(std::int32_t v, std::size_t cost_class) {
+    VertexState& state = vertex_[at(v)];
+    ++state.version;
+    state.is_best_known = state.is_quadric_known = state.is_refined = false;
+    queue(v, cost_class);
   }
 
   void sum_quadric(std::int32_t v) {
@@ -337,7 +327,7 @@ class Simplifier {
   std::vector<EdgeState> edge_;      // by the larger of its halfedges
   std::vector<std::uint32_t> mark_;  // by vertex, valid when equal to mark_now_
   std::uint32_t mark_now_ = 0;
-  Queue queue_;
+  BucketQueue queue_;
   Star star_;
   SimplifyCounts counts_;
 };

@@ -17,17 +17,15 @@ using namespace tinsmith;
 
 constexpr std::int32_t kSide = 257;
 
-/// Narrows the heights by one triangle with legs of the given number of cells.
+/// Sweeps one triangle with legs of the given number of cells.
 void sample_sweep(benchmark::State& state) {
   const HeightGrid samples = heights_of(Terrain{}, {0, 0, kSide, kSide});
   const auto leg = static_cast<std::int32_t>(state.range(0)) * kLatticePerCell;
   const LatticePoint p{100 * kLatticePerCell + 3, 100 * kLatticePerCell + 5};
   const Side side{{{p.x + leg, p.y}, samples.at(100, 100)}, {{p.x, p.y + leg}, samples.at(100, 100)}};
+  const Star star{side};
   const Bound bound{samples, 1e6, samples.at(100, 100)};  // a tolerance that never stops the sweep early
-  for ([[maybe_unused]] auto _ : state) {
-    HeightInterval interval;
-    benchmark::DoNotOptimize(narrow(interval, bound, p, side));
-  }
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(feasible_heights(star, bound, p));
   state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0) / 2);
 }
 BENCHMARK(sample_sweep)->Arg(2)->Arg(5)->Arg(20)->Arg(100);
@@ -62,17 +60,16 @@ void placement_candidates(benchmark::State& state) {
 }
 BENCHMARK(placement_candidates);
 
-/// Pushes as many entries as a window has edges, and pops them all.
+/// Pushes three times as many entries as a window has vertices, and pops them all.
 void queue(benchmark::State& state) {
   constexpr int kEntries = 3 * kSide * kSide;
-  using Queue = BucketQueue<std::int32_t>;
   for ([[maybe_unused]] auto _ : state) {
-    Queue queue;
+    BucketQueue queue(kEntries);
     for (std::int32_t i = 0; i < kEntries; ++i)
-      queue.push(Queue::bucket_of(static_cast<float>(i * 7919LL % kEntries)), i);
-    std::int32_t entry = 0;
-    std::size_t bucket = 0;
-    while (queue.pop(entry, bucket)) benchmark::DoNotOptimize(entry);
+      queue.push(BucketQueue::class_of(static_cast<float>(i * 7919LL % kEntries)), i);
+    std::int32_t vertex = 0;
+    std::size_t cost_class = 0;
+    while (queue.pop(vertex, cost_class)) benchmark::DoNotOptimize(vertex);
   }
   state.SetItemsProcessed(state.iterations() * kEntries);
 }
