@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "geometry/triangle_rows.hpp"
 
@@ -91,25 +92,24 @@ double squared_error(const RefineBound& bound, const Corner& a, const Corner& b,
 bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, Star& star) {
   if (!bound.may_move || mesh.kind[at(v)] == VertexKind::kLocked) return false;
   const std::int32_t step = gather(mesh, v, star);
-  Bound star_bound{bound.samples, bound.tolerance, mesh.height[at(v)]};
+  const Bound star_bound{bound.samples, bound.tolerance, mesh.height[at(v)]};
   const LatticePoint p = mesh.position[at(v)];
-  const HeightInterval here = feasible_heights(star, star_bound, p);
-  if (here.is_empty()) return false;  // by rounding only
-  Place best{p, here.best()};
-  double least = here.squared_error(best.height);
-  const double worth = kWorthwhile * here.squared_error(0);
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  HeightFit best = fit_height(star, star_bound, p, kNoLimit);
+  if (!best.is_feasible) return false;  // by rounding only
+  LatticePoint best_position = p;
+  const double worth = kWorthwhile * best.squared_error_at_reference;
   const Directions where = directions(mesh, v, step);
   for (std::size_t i = 0; i < where.n; ++i) {
     const LatticePoint q{p.x + where.list[i].x, p.y + where.list[i].y};
     if (!is_in_kernel(star, q) || !stays_between(mesh, v, q)) continue;
-    star_bound.squared_limit = least;
-    const HeightInterval there = feasible_heights(star, star_bound, q);
-    if (there.is_empty() || there.squared_error(there.best()) >= least) continue;
-    best = {q, there.best()};
-    least = there.squared_error(best.height);
+    const HeightFit there = fit_height(star, star_bound, q, best.squared_error);
+    if (!there.is_feasible) continue;
+    best = there;
+    best_position = q;
   }
-  if (!(least < worth)) return false;
-  mesh.position[at(v)] = best.position;
+  if (!(best.squared_error < worth)) return false;
+  mesh.position[at(v)] = best_position;
   mesh.height[at(v)] += best.height;
   return true;
 }

@@ -19,7 +19,7 @@ struct Side {
 using Star = std::vector<Side>;
 
 /// The heights of the middle vertex, relative to a reference, that all samples seen so far allow, with the
-/// samples that set the two ends, and the sums that give the squared error at any height.
+/// samples that set the two ends, and the sums that give the least-squares height.
 struct HeightInterval {
   double lowest = -std::numeric_limits<double>::max();
   double highest = std::numeric_limits<double>::max();
@@ -27,15 +27,20 @@ struct HeightInterval {
   LatticePoint highest_at;
   double sum_wr = 0;
   double sum_ww = 0;
-  double sum_rr = 0;
-  double lowest_sample = std::numeric_limits<double>::max();  // as measured
-  double highest_sample = -std::numeric_limits<double>::max();
+  double sum_rr = 0;  // for fits only
 
   bool is_empty() const { return lowest > highest; }
   /// The least-squares height, held within the interval.
   double best() const;
-  /// The sum over the samples of their squared error when the vertex has this height.
-  double squared_error(double height) const { return sum_rr + height * (height * sum_ww - 2 * sum_wr); }
+};
+
+/// A height of the middle vertex, relative to a reference, and the sums of the samples' squared errors with it and
+/// with the reference itself.
+struct HeightFit {
+  double height = 0;
+  double squared_error = 0;
+  double squared_error_at_reference = 0;
+  bool is_feasible = false;
 };
 
 /// What the sweep measures against. Heights are taken relative to `reference`, for precision.
@@ -43,7 +48,6 @@ struct Bound {
   const HeightGrid& samples;
   double tolerance = 0;
   double reference = 0;
-  double squared_limit = std::numeric_limits<double>::infinity();  // no height may have a larger squared error
 };
 
 /// The heights that all samples under the star allow to a vertex at p; empty as soon as one contradicts. With the
@@ -52,8 +56,13 @@ struct Bound {
 /// heights of the star's samples, give or take the tolerance, so that there are no spikes.
 HeightInterval feasible_heights(const Star& star, const Bound& bound, LatticePoint p);
 
+/// The least-squares height at p within those heights; not feasible when there are none or when the squared error
+/// would not be below `limit`. Stops as soon as that is certain.
+HeightFit fit_height(const Star& star, const Bound& bound, LatticePoint p, double limit);
+
 /// The same to the bit, with the instructions that every machine has.
 HeightInterval feasible_heights_portable(const Star& star, const Bound& bound, LatticePoint p);
+HeightFit fit_height_portable(const Star& star, const Bound& bound, LatticePoint p, double limit);
 
 /// Whether the two samples that set the ends of an earlier, empty interval alone leave no height at p either.
 bool is_still_empty(const HeightInterval& earlier, const Star& star, const Bound& bound, LatticePoint p);

@@ -66,8 +66,29 @@ struct SweptTriangle {
         rise_b((side.b.height - reference) * inverse_area) {}
 };
 
-// What the samples seen so far say, those of each lane apart.
+// Four samples in a row: the areas that they span with the sides at p, and where they are.
 template <class L>
+struct Four {
+  L area_a;
+  L area_b;
+  std::int64_t index;
+
+  TINSMITH_INLINE Four(const SweptTriangle& t, LatticePoint p, std::int32_t x, std::int32_t y, std::int64_t first)
+      : index(first) {
+    const double dx = static_cast<double>(x) * kLatticePerCell - p.x;
+    const double dy = static_cast<double>(y) * kLatticePerCell - p.y;
+    area_a = L::all(t.by * dx - t.bx * dy) + L::all(t.by * kLatticePerCell) * columns();
+    area_b = L::all(t.ax * dy - t.ay * dx) - L::all(t.ay * kLatticePerCell) * columns();
+  }
+  TINSMITH_INLINE static L columns() {
+    static constexpr std::array<double, kLanes> kColumns{0, 1, 2, 3};
+    return L::load(kColumns.data());
+  }
+};
+
+// What the samples seen so far say, those of each lane apart. For a fit the squares of the residuals are summed;
+// else it is noted which samples set the ends of the interval.
+template <class L, bool kForFit>
 class StarSweep {
  public:
   TINSMITH_INLINE StarSweep(const Bound& bound, LatticePoint p)
@@ -76,22 +97,35 @@ class StarSweep {
   TINSMITH_INLINE void add(const Side& side) {
     const LatticePoint a = side.a.position;
     const LatticePoint b = side.b.position;
-    const SweptTriangle triangle(p_, side, reference_);
+    const SweptTriangle t(p_, side, reference_);
     const std::int32_t first_row = ceil_cell(std::min({p_.y, a.y, b.y}));
     const std::int32_t last_row = floor_cell(std::max({p_.y, a.y, b.y}));
     const std::int32_t first = ceil_cell(std::min({p_.x, a.x, b.x}));
     const std::int32_t last = floor_cell(std::max({p_.x, a.x, b.x}));
     // Row bounds cost as much as a few samples more.
     if (last - first < 2 * kWidth) {
-      for (std::int32_t y = first_row; y <= last_row; ++y) {
-        for (std::int32_t x = first; x <= last; x += kWidth) add_samples(triangle, x, y);
+      for (std::int32_t x = first; x <= last; x += kWidth) {
+        Four<L> four(t, p_, x, first_row, rows_.index(x, first_row));
+        for (std::int32_t y = first_row; y <= last_row; ++y) {
+          add_samples(t, four);
+          four.area_a = four.area_a - L::all(t.bx * kLatticePerCell);
+          four.area_b = four.area_b + L::all(t.ax * kLatticePerCell);
+          four.index += rows_.rect.width;
+        }
       }
       return;
     }
     const TriangleRows bounds(p_, a, b);
     for (std::int32_t y = first_row; y <= last_row; ++y) {
       const auto [left, right] = bounds.columns(y);
-      for (std::int32_t x = left; x <= right; x += kWidth) add_samples(triangle, x, y);
+      if (left > right) continue;
+      Four<L> four(t, p_, left, y, rows_.index(left, y));
+      for (std::int32_t x = left; x <= right; x += kWidth) {
+        add_samples(t, four);
+        four.area_a = four.area_a + L::all(t.by * (kLatticePerCell * kWidth));
+        four.area_b = four.area_b - L::all(t.ay * (kLatticePerCell * kWidth));
+        four.index += kWidth;
+      }
     }
   }
 
@@ -108,9 +142,12 @@ class StarSweep {
     HeightInterval interval;
     interval.lowest = lowest_.largest();
     interval.highest = highest_.smallest();
-    interval.lowest_at = rows_.place(where_less(lowest_, L::all(interval.lowest), L::all(0), lowest_at_).largest());
-    interval.highest_at =
-        rows_.place(where_less(L::all(interval.highest), highest_, L::all(0), highest_at_).largest());
+    if constexpr (!kForFit) {
+      interval.lowest_at =
+          rows_.place(where_less(lowest_, L::all(interval.lowest), L::all(0), lowest_at_).largest());
+      interval.highest_at =
+          rows_.place(where_less(L::all(interval.highest), highest_, L::all(0), highest_at_).largest());
+    }
     interval.sum_wr = sum_wr_.sum();
     interval.sum_ww = sum_ww_.sum();
     interval.sum_rr = sum_rr_.sum();
@@ -124,36 +161,29 @@ class StarSweep {
   }
 
  private:
-  // Samples of the row y from the column x on, as far as they lie inside.
-  TINSMITH_INLINE void add_samples(const SweptTriangle& t, std::int32_t x, std::int32_t y) {
-    constexpr std::array<double, kLanes> kColumns{0, 1, 2, 3};
+  TINSMITH_INLINE void add_samples(const SweptTriangle& t, const Four<L>& four) {
     const L zero = L::all(0);
-    const L column = L::load(kColumns.data());
-    const double dx = static_cast<double>(x) * kLatticePerCell - p_.x;
-    const double dy = static_cast<double>(y) * kLatticePerCell - p_.y;
-    const L area_a = L::all(t.by * dx - t.bx * dy) + L::all(t.by * kLatticePerCell) * column;
-    const L area_b = L::all(t.ax * dy - t.ay * dx) - L::all(t.ay * kLatticePerCell) * column;
-    const L area_p = L::all(t.area) - area_a - area_b;
+    const L area_p = L::all(t.area) - four.area_a - four.area_b;
     // Not negative inside. On the far side (a, b) the vertex changes nothing; the areas are integers.
-    const L inside = min(min(area_a, area_b), area_p - L::all(1));
-
-    const std::int64_t index = rows_.index(x, y);
-    const L z = rows_.template load<L>(index);
-    const L r = (z - L::all(reference_)) - (area_a * L::all(t.rise_a) + area_b * L::all(t.rise_b));
+    const L inside = min(min(four.area_a, four.area_b), area_p - L::all(1));
+    const L z = rows_.template load<L>(four.index);
+    const L r = (z - L::all(reference_)) - (four.area_a * L::all(t.rise_a) + four.area_b * L::all(t.rise_b));
     const L per_weight = L::all(t.area) / area_p;
     const L lowest = where_less(inside, zero, L::all(-kMax), (r - L::all(tolerance_)) * per_weight);
     const L highest = where_less(inside, zero, L::all(kMax), (r + L::all(tolerance_)) * per_weight);
-    const L at = L::all(static_cast<double>(index)) + column;
-    lowest_at_ = where_less(lowest_, lowest, at, lowest_at_);
+    if constexpr (!kForFit) {
+      const L at = L::all(static_cast<double>(four.index)) + Four<L>::columns();
+      lowest_at_ = where_less(lowest_, lowest, at, lowest_at_);
+      highest_at_ = where_less(highest, highest_, at, highest_at_);
+    }
     lowest_ = max(lowest, lowest_);
-    highest_at_ = where_less(highest, highest_, at, highest_at_);
     highest_ = min(highest, highest_);
 
     const L weight = where_less(inside, zero, zero, area_p * L::all(t.inverse_area));
     const L residual = where_less(inside, zero, zero, r);
     sum_wr_ = sum_wr_ + weight * residual;
     sum_ww_ = sum_ww_ + weight * weight;
-    sum_rr_ = sum_rr_ + residual * residual;
+    if constexpr (kForFit) sum_rr_ = sum_rr_ + residual * residual;
     lowest_sample_ = min(where_less(inside, zero, L::all(kMax), z), lowest_sample_);
     highest_sample_ = max(where_less(inside, zero, L::all(-kMax), z), highest_sample_);
   }
@@ -175,34 +205,38 @@ class StarSweep {
 
 template <class L>
 TINSMITH_INLINE HeightInterval sweep(const Star& star, const Bound& bound, LatticePoint p) {
-  StarSweep<L> so_far(bound, p);
-  const bool has_limit = bound.squared_limit < std::numeric_limits<double>::infinity();
+  StarSweep<L, false> so_far(bound, p);
   for (const Side& side : star) {
     so_far.add(side);
     if (so_far.is_empty()) break;
-    if (has_limit && so_far.least_squared_error() >= bound.squared_limit) {
-      HeightInterval none = so_far.result();
-      none.highest = none.lowest - 1;
-      return none;
-    }
   }
   return so_far.result();
+}
+
+template <class L>
+TINSMITH_INLINE HeightFit sweep_for_fit(const Star& star, const Bound& bound, LatticePoint p, double limit) {
+  StarSweep<L, true> so_far(bound, p);
+  for (const Side& side : star) {
+    so_far.add(side);
+    if (so_far.is_empty() || so_far.least_squared_error() >= limit) return {};
+  }
+  const HeightInterval interval = so_far.result();
+  if (interval.is_empty()) return {};
+  const double height = interval.best();
+  const double squared = interval.sum_rr + height * (height * interval.sum_ww - 2 * interval.sum_wr);
+  return squared < limit ? HeightFit{height, squared, interval.sum_rr, true} : HeightFit{};
 }
 
 #ifdef TINSMITH_HAS_AVX2_VARIANT
 __attribute__((target("avx2"))) HeightInterval sweep_avx2(const Star& star, const Bound& bound, LatticePoint p) {
   return sweep<Lanes<Quad>>(star, bound, p);
 }
-#endif
-
-using Sweep = HeightInterval (*)(const Star&, const Bound&, LatticePoint);
-
-Sweep sweep_for_this_machine() {
-#ifdef TINSMITH_HAS_AVX2_VARIANT
-  if (__builtin_cpu_supports("avx2")) return sweep_avx2;
-#endif
-  return feasible_heights_portable;
+__attribute__((target("avx2"))) HeightFit sweep_for_fit_avx2(const Star& star, const Bound& bound, LatticePoint p,
+                                                             double limit) {
+  return sweep_for_fit<Lanes<Quad>>(star, bound, p, limit);
 }
+const bool has_avx2 = __builtin_cpu_supports("avx2");
+#endif
 
 }  // namespace
 
@@ -210,9 +244,22 @@ HeightInterval feasible_heights_portable(const Star& star, const Bound& bound, L
   return sweep<Lanes<Pair>>(star, bound, p);
 }
 
+HeightFit fit_height_portable(const Star& star, const Bound& bound, LatticePoint p, double limit) {
+  return sweep_for_fit<Lanes<Pair>>(star, bound, p, limit);
+}
+
 HeightInterval feasible_heights(const Star& star, const Bound& bound, LatticePoint p) {
-  static const Sweep sweep_here = sweep_for_this_machine();
-  return sweep_here(star, bound, p);
+#ifdef TINSMITH_HAS_AVX2_VARIANT
+  if (has_avx2) return sweep_avx2(star, bound, p);
+#endif
+  return feasible_heights_portable(star, bound, p);
+}
+
+HeightFit fit_height(const Star& star, const Bound& bound, LatticePoint p, double limit) {
+#ifdef TINSMITH_HAS_AVX2_VARIANT
+  if (has_avx2) return sweep_for_fit_avx2(star, bound, p, limit);
+#endif
+  return fit_height_portable(star, bound, p, limit);
 }
 
 }  // namespace tinsmith

@@ -146,16 +146,20 @@ TEST(ErrorBound, IsTheSameToTheBitWithEveryInstructionSet) {
     const HeightInterval here = feasible_heights(star, bound, c.p);
     const HeightInterval anywhere = feasible_heights_portable(star, bound, c.p);
     const auto numbers = [](const HeightInterval& h) {
-      return std::array{h.lowest, h.highest, h.sum_wr, h.sum_ww, h.sum_rr};
+      return std::array{h.lowest, h.highest, h.sum_wr, h.sum_ww};
     };
     EXPECT_EQ(numbers(here), numbers(anywhere)) << "seed 233, case " << i;
     EXPECT_EQ(here.lowest_at, anywhere.lowest_at) << "seed 233, case " << i;
     EXPECT_EQ(here.highest_at, anywhere.highest_at) << "seed 233, case " << i;
+    const HeightFit fit = fit_height(star, bound, c.p, 1e6);
+    const HeightFit portable = fit_height_portable(star, bound, c.p, 1e6);
+    EXPECT_EQ(std::pair(fit.height, fit.squared_error), std::pair(portable.height, portable.squared_error))
+        << "seed 233, case " << i;
   }
 }
 
 // With a limit a star is refused exactly when its best height has a larger squared error.
-TEST(ErrorBound, RefusesStarsThatExceedTheSquaredLimit) {
+TEST(ErrorBound, RefusesFitsThatExceedTheSquaredLimit) {
   const HeightGrid grid = grid_of(20, 20, [](int x, int y) { return 40 * std::sin(0.3 * x) + 3 * y; });
   std::mt19937_64 random(234);
   int n_refused = 0;
@@ -163,15 +167,13 @@ TEST(ErrorBound, RefusesStarsThatExceedTheSquaredLimit) {
   for (int i = 0; i < 4'000; ++i) {
     const Case c = draw(random, grid);
     if (orient(c.p, c.a.position, c.b.position) < 500) continue;
-    Bound bound{grid, 1e6, c.reference};
-    const HeightInterval all = feasible_heights({{c.a, c.b}}, bound, c.p);
-    if (all.sum_ww == 0) continue;
-    const double least = all.squared_error(all.best());
-    bound.squared_limit = 50;
-    if (std::abs(least - bound.squared_limit) < 1e-6) continue;
-    const HeightInterval limited = feasible_heights({{c.a, c.b}}, bound, c.p);
-    EXPECT_EQ(limited.is_empty(), least > bound.squared_limit) << "seed 234, case " << i;
-    ++(limited.is_empty() ? n_refused : n_kept);
+    const Bound bound{grid, 1e6, c.reference};
+    const HeightFit all = fit_height({{c.a, c.b}}, bound, c.p, 1e9);
+    constexpr double kLimit = 50;
+    if (std::abs(all.squared_error - kLimit) < 1e-6) continue;
+    const HeightFit limited = fit_height({{c.a, c.b}}, bound, c.p, kLimit);
+    EXPECT_EQ(limited.is_feasible, all.squared_error < kLimit) << "seed 234, case " << i;
+    ++(limited.is_feasible ? n_kept : n_refused);
   }
   EXPECT_GT(n_refused, 200);
   EXPECT_GT(n_kept, 200);
