@@ -30,8 +30,7 @@ constexpr double kSelectFactor = 4;
 constexpr double kSeamFactor = 0.4;
 
 struct FaceMark {
-  std::array<std::int32_t, 3> checked{kNone, kNone, kNone};  // the vertices that it had when it was measured
-  bool is_inside = false;
+  std::array<std::int32_t, 3> listed{kNone, kNone, kNone};  // the vertices that it had when it was listed
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -75,13 +74,14 @@ class WindowTriangulation {
     }
   }
 
-  // Inserts the worst sample of every triangle that is outside the tolerance, until none is.
+  // Inserts the worst sample of triangles that are outside the tolerance, until none is.
   void insert_violations() {
-    std::vector<Violation> found = violations();
-    while (!found.empty()) {
-      for (const Violation& violation : found)
-        name(cdt_.insert(plan(violation.sample), violation.face_vertex->face()), violation.sample);
-      found = violations();
+    std::vector<Cdt::Face_handle> faces;
+    for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) faces.push_back(f);
+    while (!faces.empty()) {
+      std::vector<Violation> found;
+      for (const Cdt::Face_handle f : faces) find_violation(f, found);
+      faces = insert_worst(found);
     }
   }
 
@@ -95,8 +95,9 @@ class WindowTriangulation {
 
  private:
   struct Violation {
+    double error;
     LatticePoint sample;
-    Cdt::Vertex_handle face_vertex;
+    std::array<Cdt::Vertex_handle, 3> corners;
   };
 
   // Few bits, so that row * aspect is exact: points in line on the grid are in line for CGAL too, else it would
@@ -124,6 +125,7 @@ class WindowTriangulation {
     return {f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
   }
   LatticePoint sample(std::int32_t i) const { return position_[static_cast<std::size_t>(i)]; }
+  double height(std::int32_t i) const { return samples_.at(sample(i).x, sample(i).y); }
 
   // The outline is constrained, so a triangle lies in valid cells wholly or not at all, and the cell of its
   // centroid tells.
@@ -135,51 +137,64 @@ class WindowTriangulation {
     return samples_.is_valid_cell(x, y);
   }
 
-  std::vector<Violation> violations() {
-    std::vector<Violation> found;
-    for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) {
-      const std::array<std::int32_t, 3> now = names(f);
-      if (f->info().checked == now) continue;
-      f->info().checked = now;
-      LatticePoint worst;
-      if (is_inside(f) && has_violation(now, worst)) found.push_back({worst, f->vertex(0)});
+  // The worst first; what lies in a triangle that has changed meanwhile waits until that has been measured.
+  // Inserting all of them made a fifth more triangles.
+  std::vector<Cdt::Face_handle> insert_worst(const std::vector<Violation>& violations) {
+    std::vector<Cdt::Vertex_handle> inserted;
+    for (const auto& [error, sample, corners] : violations) {
+      Cdt::Face_handle f;
+      if (!cdt_.is_face(corners[0], corners[1], corners[2], f)) continue;
+      inserted.push_back(cdt_.insert(plan(sample), f));
+      name(inserted.back(), sample);
     }
-    // Two triangles may share their worst sample, on their common side.
-    std::sort(found.begin(), found.end(),
-              [](const Violation& u, const Violation& v) { return u.sample < v.sample; });
-    found.erase(std::unique(found.begin(), found.end(),
-                            [](const Violation& u, const Violation& v) { return u.sample == v.sample; }),
-                found.end());
-    return found;
+    std::vector<Cdt::Face_handle> changed;
+    for (const Cdt::Vertex_handle v : inserted) {
+      auto f = cdt_.incident_faces(v);
+      const auto first = f;
+      do {
+        if (cdt_.is_infinite(f)) continue;
+        const std::array<std::int32_t, 3> now = names(f);
+        if (f->info().listed == now) continue;
+        f->info().listed = now;
+        changed.push_back(f);
+      } while (++f != first);
+    }
+    return changed;
   }
 
-  bool has_violation(const std::array<std::int32_t, 3>& t, LatticePoint& worst) const {
+  void find_violation(Cdt::Face_handle f, std::vector<Violation>& found) const {
+    if (!is_inside(f)) return;
     const auto scaled = [&](std::int32_t i) {
       return LatticePoint{sample(i).x * kLatticePerCell, sample(i).y * kLatticePerCell};
     };
-    const auto height = [&](std::int32_t i) { return samples_.at(sample(i).x, sample(i).y); };
-    const LatticePoint a = scaled(t[0]);
-    const LatticePoint b = scaled(t[1]);
-    const LatticePoint c = scaled(t[2]);
-    const Plane plane = plane_through({a, height(t[0])}, {b, height(t[1])}, {c, height(t[2])});
+    const auto [i, j, k] = names(f);
+    const LatticePoint a = scaled(i);
+    const LatticePoint b = scaled(j);
+    const LatticePoint c = scaled(k);
+    const Plane plane = plane_through({a, height(i)}, {b, height(j)}, {c, height(k)});
     // The plane meets its own corners but for the rounding, which inserting them again would not mend.
-    const auto is_corner = [&](LatticePoint p) {
-      return p == sample(t[0]) || p == sample(t[1]) || p == sample(t[2]);
-    };
+    const auto is_corner = [&](LatticePoint p) { return p == sample(i) || p == sample(j) || p == sample(k); };
     const TriangleRows rows(a, b, c);
-    double limit = options_.tolerance;
-    bool found = false;
+    Violation worst{options_.tolerance, {}, {f->vertex(0), f->vertex(1), f->vertex(2)}};
     for (std::int32_t y = rows.first_row; y <= rows.last_row; ++y) {
       const auto [first, last] = rows.columns(y);
+      if (first > last) continue;
+      const double* z = row(y, first);
+      const double start = plane.at(first, y);
       for (std::int32_t x = first; x <= last; ++x) {
-        const double error = std::abs(samples_.at(x, y) - plane.at(x, y));
-        if (!(error > limit) || is_corner({x, y})) continue;
-        limit = error;
-        worst = {x, y};
-        found = true;
+        const double error = std::abs(z[x - first] - (start + (x - first) * plane.dx));
+        if (error > worst.error && !is_corner({x, y})) {
+          worst.error = error;
+          worst.sample = {x, y};
+        }
       }
     }
-    return found;
+    if (worst.error > options_.tolerance) found.push_back(worst);
+  }
+
+  const double* row(std::int32_t y, std::int32_t first) const {
+    const GridRect& r = samples_.rect;
+    return samples_.z.data() + (static_cast<std::int64_t>(y - r.y0) * r.width + (first - r.x0));
   }
 
   // Names the vertices anew along a space-filling curve, and orders the triangles by them: what lies together in
