@@ -58,8 +58,6 @@ class RoundProgress {
   std::int64_t told_ = 0;
 };
 
-int refinements(Effort effort) { return effort == Effort::kFast ? 0 : effort == Effort::kDefault ? 1 : 4; }
-
 class Rounds {
  public:
   Rounds(const HeightField& field, const GridFrame& frame, const RoundsOptions& options, const Progress& progress,
@@ -81,7 +79,7 @@ class Rounds {
   WindowOptions window_options(const GridRect& window) const {
     const auto [step_x, step_y] =
         frame_.metres_per_step(window.x0 + window.width / 2.0, window.y0 + window.height / 2.0);
-    return {options_.tolerance, step_y / step_x, options_.placement, refinements(options_.effort)};
+    return {options_.tolerance, step_y / step_x, options_.placement, options_.effort};
   }
 
   std::vector<Chunk> first_round() {

@@ -27,7 +27,8 @@ struct Lanes {
 
   TINSMITH_INLINE static Lanes all(double value) {
     Lanes result;
-    for (std::size_t i = 0; i < kRegisters; ++i) result.r[i] = value - Register{};  // x - 0 is x: the compiler broadcasts
+    for (std::size_t i = 0; i < kRegisters; ++i)
+      result.r[i] = value - Register{};  // x - 0 is x: the compiler broadcasts
     return result;
   }
   TINSMITH_INLINE static Lanes load(const double* from) {

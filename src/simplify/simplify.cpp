@@ -47,7 +47,7 @@ class Simplifier {
       queue_best(v);
     }
     collapse_all();
-    for (int i = 0; i < options_.refinements; ++i) {
+    for (int i = 0; i < options_.labour.refinements; ++i) {
       refine();
       collapse_all();
     }
@@ -152,8 +152,21 @@ class Simplifier {
 
   float cost(std::int32_t h) {
     EdgeState& state = edge(h);
-    if (std::isnan(state.cost)) state.cost = static_cast<float>(edge_cost(placed_edge(h), rules_));
+    if (std::isnan(state.cost)) {
+      const Edge e = placed_edge(h);
+      const double cost = edge_cost(e, rules_);
+      state.cost = cost > hopeless_cost(e) ? std::numeric_limits<float>::infinity() : static_cast<float>(cost);
+    }
     return state.cost;
+  }
+
+  // The quadric error over the area of the planes is the mean square of how far they lie from the new vertex. When
+  // that is far above the tolerance the samples hardly ever leave a height, unless they are few.
+  double hopeless_cost(const Edge& e) const {
+    constexpr double kFewCells = 50;
+    constexpr double kLatticeAreaPerCell = 2.0 * kLatticePerCell * kLatticePerCell;
+    const double area = e.v0.quadric->zz + e.v1.quadric->zz + kFewCells * kLatticeAreaPerCell;
+    return options_.labour.patience * options_.tolerance * options_.tolerance * area;
   }
 
   template <class F>
@@ -333,6 +346,26 @@ class Simplifier {
 };
 
 }  // namespace
+
+// Measured on the sample terrain, one thread, 512 x 512 windows, as thousands of triangles (seconds):
+//
+//   refinements  patience      2 m           10 m          50 m
+//             0         1   833.7 (3.4)   223.4 (1.52)   33.8 (0.31)
+//             1       1.5   736.9 (4.7)   206.2 (1.99)   30.9 (0.52)
+//             1  infinity   691.7 (6.7)   204.9 (2.57)   30.8 (0.66)
+//             4         6   678.1 (9.2)   199.0 (3.86)   30.0 (1.06)
+//             4  infinity   674.0 (11.2)  198.9 (4.10)   30.0 (1.10)
+Labour labour_of(Effort effort) {
+  switch (effort) {
+    case Effort::kFast:
+      return {0, 1};
+    case Effort::kDefault:
+      return {1, 1.5};
+    case Effort::kBest:
+      return {4, 6};
+  }
+  return {};
+}
 
 SimplifyCounts simplify(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options) {
   return Simplifier(mesh, samples, options).run();

@@ -5,6 +5,7 @@
 // and the paper's steps 2 to 7 with its half-space test, eq. 12-24, in the horizontal plane, where it is exact.
 
 #include <cstdint>
+#include <limits>
 
 #include "mesh/window_mesh.hpp"
 #include "samples/height_grid.hpp"
@@ -12,10 +13,19 @@
 
 namespace tinsmith {
 
+/// How hard to try.
+struct Labour {
+  int refinements = 0;  // rounds of vertex moves, flips and further collapses after the first pass
+  // Edges whose mean squared quadric error is more than this times the squared tolerance are not tried.
+  double patience = std::numeric_limits<double>::infinity();
+};
+
+Labour labour_of(Effort effort);
+
 struct SimplifyOptions {
   double tolerance = 0;  // vertical units of the samples: no sample under the mesh is ever farther off
   Placement placement = Placement::kOptimal;
-  int refinements = 0;          // rounds of vertex moves, flips and further collapses after the first pass
+  Labour labour;
   bool only_unsettled = false;  // start only from vertices that are not settled, and from what changes around them
 };
 

@@ -25,7 +25,7 @@ double safe_tolerance(const HeightGrid& samples, double tolerance) {
 GridRect grown(const GridRect& r) { return {r.x0 - 1, r.y0 - 1, r.width + 2, r.height + 2}; }
 
 SimplifyOptions simplify_options(const HeightGrid& samples, const WindowOptions& options, bool only_unsettled) {
-  return {safe_tolerance(samples, options.tolerance), options.placement, options.refinements, only_unsettled};
+  return {safe_tolerance(samples, options.tolerance), options.placement, labour_of(options.effort), only_unsettled};
 }
 
 void count_valid(const HeightGrid& samples, const GridRect& window, const HeightField& field, FirstChunk& result) {

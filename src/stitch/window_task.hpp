@@ -15,7 +15,7 @@ struct WindowOptions {
   double tolerance = 0;  // vertical units
   double aspect = 1;     // metres between rows / metres between columns, at the window
   Placement placement = Placement::kOptimal;
-  int refinements = 1;  // rounds of refinement where something has changed
+  Effort effort = Effort::kDefault;
 };
 
 /// What a task of round 0 gives.

@@ -64,7 +64,7 @@ TEST(ImproveEdge, KeepsAnEdgeWhoseOtherDiagonalLiesOutside) {
 }
 
 TEST(FlipEdge, KeepsTheMeshValidAnywhere) {
-  WindowMesh mesh = triangulate(around(mountains(33, 33, 901), {0, 0, 33, 33}), {0, 0, 33, 33}, {40, 1});
+  WindowMesh mesh = triangulate(around(mountains(49, 49, 901), {0, 0, 49, 49}), {0, 0, 49, 49}, {40, 1});
   int n_flips = 0;
   for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
     if (mesh.is_border_edge(h)) continue;
@@ -96,7 +96,7 @@ TEST(Refinement, LowersTriangleCountAndErrorAndKeepsEveryPromise) {
       WindowMesh mesh = triangulate(around(grid, window), window, {10, 1});
       set_kinds(mesh, around(grid, window));
       const SimplifyCounts counts =
-          simplify(mesh, around(grid, window), {kTolerance, Placement::kOptimal, refinements, false});
+          simplify(mesh, around(grid, window), {kTolerance, Placement::kOptimal, {refinements}, false});
       EXPECT_EQ(validate(mesh), "");
       EXPECT_EQ(complaints(check_surface(mesh, grid), kTolerance + kRounding), "");
       std::size_t n = 0;
@@ -116,7 +116,7 @@ TEST(Refinement, OfSubsetPlacementKeepsVerticesOnTheirSamples) {
   const GridRect window{0, 0, 65, 65};
   WindowMesh mesh = triangulate(around(grid, window), window, {10, 1});
   set_kinds(mesh, around(grid, window));
-  const SimplifyCounts counts = simplify(mesh, around(grid, window), {10, Placement::kSubset, 2, false});
+  const SimplifyCounts counts = simplify(mesh, around(grid, window), {10, Placement::kSubset, {2}, false});
   EXPECT_GT(counts.flips, 20U);
   EXPECT_EQ(counts.moves, 0U);
   for (std::int32_t v = 0; v < mesh.n_vertices(); ++v) {
