@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "base/check.hpp"
@@ -12,44 +14,56 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+struct Leaving {
+  std::int32_t destination;
+  std::int32_t halfedge;
+};
+
 // Halfedges by origin, as one array with offsets.
 struct Outgoing {
   std::vector<std::int32_t> first;
-  std::vector<std::int32_t> halfedge;
+  std::vector<Leaving> leaving;
+
+  std::span<const Leaving> of(std::int32_t v) const {
+    return {leaving.data() + first[at(v)], leaving.data() + first[at(v) + 1]};
+  }
 };
 
 Outgoing outgoing_of(const WindowMesh& mesh) {
   Outgoing result;
   result.first.assign(mesh.position.size() + 1, 0);
-  result.halfedge.resize(mesh.origin.size());
+  result.leaving.resize(mesh.origin.size());
   for (const std::int32_t v : mesh.origin) ++result.first[at(v) + 1];
   for (std::size_t v = 0; v < mesh.position.size(); ++v) result.first[v + 1] += result.first[v];
   std::vector<std::int32_t> fill(result.first.begin(), result.first.end() - 1);
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) result.halfedge[at(fill[at(mesh.origin[at(h)])]++)] = h;
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h)
+    result.leaving[at(fill[at(mesh.origin[at(h)])]++)] = {mesh.destination(h), h};
   return result;
 }
 
 void pair_twins(WindowMesh& mesh, const Outgoing& outgoing) {
   mesh.twin.assign(mesh.origin.size(), kNone);
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
-    if (mesh.twin[at(h)] != kNone) continue;
-    const std::int32_t b = mesh.destination(h);
-    for (std::int32_t i = outgoing.first[at(b)]; i < outgoing.first[at(b) + 1]; ++i) {
-      const std::int32_t g = outgoing.halfedge[at(i)];
-      if (mesh.destination(g) != mesh.origin[at(h)]) continue;
-      mesh.twin[at(h)] = g;
-      mesh.twin[at(g)] = h;
-      break;
+  for (std::int32_t v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Leaving& there : outgoing.of(v)) {
+      if (there.destination < v) continue;
+      for (const Leaving& back : outgoing.of(there.destination)) {
+        if (back.destination != v) continue;
+        mesh.twin[at(there.halfedge)] = back.halfedge;
+        mesh.twin[at(back.halfedge)] = there.halfedge;
+        break;
+      }
     }
   }
 }
 
-// The first halfedge of the fan that h belongs to: clockwise as far as it goes.
+// The first halfedge of the fan that h belongs to: clockwise as far as it goes; of a closed fan the smallest.
 std::int32_t fan_start(const WindowMesh& mesh, std::int32_t h) {
+  std::int32_t smallest = h;
   std::int32_t g = h;
   while (mesh.twin[at(g)] != kNone) {
     g = WindowMesh::next(mesh.twin[at(g)]);
-    if (g == h) break;
+    if (g == h) return smallest;
+    smallest = std::min(smallest, g);
   }
   return g;
 }
@@ -63,21 +77,31 @@ std::int32_t copy_vertex(WindowMesh& mesh, std::int32_t v) {
   return mesh.n_vertices() - 1;
 }
 
+// The number of halfedges in the fan from `start`.
+std::size_t fan_size(const WindowMesh& mesh, std::int32_t start) {
+  std::size_t n = 0;
+  std::int32_t g = start;
+  do {
+    ++n;
+    g = mesh.turn(g);
+  } while (g != kNone && g != start);
+  return n;
+}
+
 // Gives each fan of v a vertex of its own; the first fan keeps v.
-void separate_fans(WindowMesh& mesh, std::int32_t v, const Outgoing& outgoing, std::vector<std::uint8_t>& seen) {
-  bool is_first = true;
-  for (std::int32_t i = outgoing.first[at(v)]; i < outgoing.first[at(v) + 1]; ++i) {
-    const std::int32_t h = outgoing.halfedge[at(i)];
-    if (seen[at(h)]) continue;
-    const std::int32_t start = fan_start(mesh, h);
-    const std::int32_t owner = is_first ? v : copy_vertex(mesh, v);
-    if (!is_first) mesh.kind[at(v)] = VertexKind::kLocked;
-    is_first = false;
-    mesh.out[at(owner)] = start;
+void separate_fans(WindowMesh& mesh, std::int32_t v, std::span<const Leaving> leaving) {
+  if (leaving.empty()) return;
+  mesh.out[at(v)] = fan_start(mesh, leaving.front().halfedge);
+  if (fan_size(mesh, mesh.out[at(v)]) == leaving.size()) return;
+  mesh.kind[at(v)] = VertexKind::kLocked;
+  for (const Leaving& one : leaving.subspan(1)) {
+    const std::int32_t start = fan_start(mesh, one.halfedge);
+    if (start == mesh.out[at(v)] || mesh.origin[at(start)] != v) continue;  // has its vertex
+    const std::int32_t copy = copy_vertex(mesh, v);
+    mesh.out[at(copy)] = start;
     std::int32_t g = start;
     do {
-      seen[at(g)] = 1;
-      mesh.origin[at(g)] = owner;
+      mesh.origin[at(g)] = copy;
       g = mesh.turn(g);
     } while (g != kNone && g != start);
   }
@@ -106,9 +130,8 @@ void connect(WindowMesh& mesh, const std::vector<std::array<std::int32_t, 3>>& t
   mesh.out.assign(mesh.position.size(), kNone);
   const Outgoing outgoing = outgoing_of(mesh);
   pair_twins(mesh, outgoing);
-  std::vector<std::uint8_t> seen(mesh.origin.size(), 0);
   const std::int32_t n = mesh.n_vertices();
-  for (std::int32_t v = 0; v < n; ++v) separate_fans(mesh, v, outgoing, seen);
+  for (std::int32_t v = 0; v < n; ++v) separate_fans(mesh, v, outgoing.of(v));
 }
 
 //        vl

@@ -2,11 +2,8 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,19 +42,12 @@ class WindowTriangulation {
   WindowTriangulation(const HeightGrid& samples, const GridRect& window, const TriangulateOptions& options)
       : samples_(samples), window_(window), options_(options), aspect_(exact_aspect(options.aspect)) {}
 
+  // Neighbours after each other: each is sought from the one before.
   void insert_all(const std::vector<LatticePoint>& selected) {
-    std::vector<Kernel::Point_2> points;
-    points.reserve(selected.size());
-    for (const LatticePoint p : selected) points.push_back(plan(p));
-    std::vector<std::size_t> order(points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    using Points = CGAL::Pointer_property_map<Kernel::Point_2>::type;
-    CGAL::spatial_sort(order.begin(), order.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Kernel, Points>(CGAL::make_property_map(points)));
     Cdt::Face_handle hint;
-    for (const std::size_t i : order) {
-      const Cdt::Vertex_handle v = cdt_.insert(points[i], hint);
-      name(v, selected[i]);
+    for (const LatticePoint p : selected) {
+      const Cdt::Vertex_handle v = cdt_.insert(plan(p), hint);
+      name(v, p);
       hint = v->face();
     }
   }
@@ -221,9 +211,18 @@ class WindowTriangulation {
       for (std::int32_t& v : t) v = new_name[static_cast<std::size_t>(v)];
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     }
-    std::sort(triangles.begin(), triangles.end());
-    connect(mesh, triangles);
+    connect(mesh, sorted_by_first_vertex(triangles, mesh.position.size()));
     return mesh;
+  }
+
+  static std::vector<std::array<std::int32_t, 3>> sorted_by_first_vertex(
+      const std::vector<std::array<std::int32_t, 3>>& triangles, std::size_t n_vertices) {
+    std::vector<std::size_t> next(n_vertices + 1, 0);
+    for (const auto& t : triangles) ++next[static_cast<std::size_t>(t[0]) + 1];
+    for (std::size_t v = 0; v < n_vertices; ++v) next[v + 1] += next[v];
+    std::vector<std::array<std::int32_t, 3>> sorted(triangles.size());
+    for (const auto& t : triangles) sorted[next[static_cast<std::size_t>(t[0])]++] = t;
+    return sorted;
   }
 
   // The bits of the window's column and row in turn (Morton 1966).
@@ -260,14 +259,26 @@ void select_outline(const HeightGrid& samples, double tolerance, const std::vect
   for (const auto& [a, b] : outline) select_on_line(samples, tolerance, a, b, selection);
 }
 
-std::vector<LatticePoint> selected_points(Selection& selection) {
-  std::vector<LatticePoint> points;
+// Along a Z-shaped curve (Morton 1966): quarter by quarter of a square.
+void add_selected(Selection& selection, LatticePoint corner, std::int32_t side, std::vector<LatticePoint>& points) {
   const GridRect& w = selection.window;
-  for (std::int32_t y = w.y0; y < w.y0 + w.height; ++y) {
-    for (std::int32_t x = w.x0; x < w.x0 + w.width; ++x) {
-      if (selection.at(x, y)) points.push_back({x, y});
-    }
+  if (corner.x >= w.x0 + w.width || corner.y >= w.y0 + w.height) return;
+  if (side == 1) {
+    if (selection.at(corner.x, corner.y)) points.push_back(corner);
+    return;
   }
+  const std::int32_t half = side / 2;
+  for (const std::int32_t y : {corner.y, corner.y + half}) {
+    for (const std::int32_t x : {corner.x, corner.x + half}) add_selected(selection, {x, y}, half, points);
+  }
+}
+
+std::vector<LatticePoint> selected_points(Selection& selection) {
+  const GridRect& w = selection.window;
+  std::int32_t side = 1;
+  while (side < std::max(w.width, w.height)) side *= 2;
+  std::vector<LatticePoint> points;
+  add_selected(selection, {w.x0, w.y0}, side, points);
   return points;
 }
 
