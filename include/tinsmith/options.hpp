@@ -41,7 +41,7 @@ struct CompressOptions {
   std::optional<double> ratio;      // the same as a fraction (0 to 1] of the full grid's triangles
   Placement placement = Placement::kOptimal;
   Effort effort = Effort::kDefault;
-  int window = 512;   // samples along a window's side; may change the result, never its guarantees
+  int window = 256;   // samples along a window's side; may change the result, never its guarantees
   int threads = 0;    // 0: as many as the machine has; never changes the result
   Progress progress;  // empty: silent
 };

@@ -14,7 +14,7 @@ namespace tinsmith {
 
 struct RoundsOptions {
   double tolerance = 0;  // vertical units of the field
-  std::int32_t window = 512;
+  std::int32_t window = 256;
   Placement placement = Placement::kOptimal;
   Effort effort = Effort::kDefault;
 };

@@ -25,24 +25,26 @@ struct Directions {
   std::size_t n = 0;
 };
 
-Directions directions(const WindowMesh& mesh, std::int32_t v, std::int32_t step) {
+Directions directions(const WindowMesh& mesh, std::int32_t v, std::int32_t step, std::size_t all) {
   const auto diagonal = static_cast<std::int32_t>(std::lround(step * 0.7071));
   if (mesh.kind[at(v)] == VertexKind::kInterior)
-    return {{{{step, 0},
-              {diagonal, diagonal},
-              {0, step},
+    return {{{{diagonal, diagonal},
               {-diagonal, diagonal},
-              {-step, 0},
               {-diagonal, -diagonal},
-              {0, -step},
-              {diagonal, -diagonal}}},
-            8};
+              {diagonal, -diagonal},
+              {step, 0},
+              {0, step},
+              {-step, 0},
+              {0, -step}}},
+            all};
   if (mesh.kind[at(v)] != VertexKind::kBorder) return {};
   const LatticePoint p = mesh.position[at(v)];
   const LatticePoint q = mesh.position[at(mesh.destination(mesh.out[at(v)]))];
   if (p.y == q.y) return {{{{step, 0}, {-step, 0}}}, 2};
   return {{{{0, step}, {0, -step}}}, 2};
 }
+
+double squared(std::int32_t v) { return static_cast<double>(v) * v; }
 
 // Gathers the star and returns the step.
 std::int32_t gather(const WindowMesh& mesh, std::int32_t v, Star& star) {
@@ -52,7 +54,7 @@ std::int32_t gather(const WindowMesh& mesh, std::int32_t v, Star& star) {
   for_each_out(mesh, v, [&](std::int32_t h) {
     const Corner a = corner(mesh, mesh.destination(h));
     star.push_back({a, corner(mesh, mesh.origin[at(WindowMesh::previous(h))])});
-    length += std::hypot(a.position.x - p.x, a.position.y - p.y);
+    length += std::sqrt(squared(a.position.x - p.x) + squared(a.position.y - p.y));
   });
   return std::max(1, static_cast<std::int32_t>(std::lround(kStep * length / static_cast<double>(star.size()))));
 }
@@ -99,7 +101,7 @@ bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, 
   if (!best.is_feasible) return false;  // by rounding only
   LatticePoint best_position = p;
   const double worth = kWorthwhile * best.squared_error_at_reference;
-  const Directions where = directions(mesh, v, step);
+  const Directions where = directions(mesh, v, step, bound.directions);
   for (std::size_t i = 0; i < where.n; ++i) {
     const LatticePoint q{p.x + where.list[i].x, p.y + where.list[i].y};
     if (!is_in_kernel(star, q) || !stays_between(mesh, v, q)) continue;

@@ -2,6 +2,7 @@
 // Small steps that lower the squared error of the surface and keep its triangles as many as they are: what was
 // refused before may be legal after them (DESIGN section 4, vertex moves and flips).
 
+#include <cstddef>
 #include <cstdint>
 
 #include "mesh/window_mesh.hpp"
@@ -14,10 +15,11 @@ namespace tinsmith {
 struct RefineBound {
   const HeightGrid& samples;
   double tolerance = 0;
-  bool may_move = true;  // false: vertices stay as they were placed, and only edges may change
+  bool may_move = true;        // false: vertices stay as they were placed, and only edges may change
+  std::size_t directions = 8;  // in which a move is tried: 4 or 8
 };
 
-/// Moves a vertex to the best of eight places a quarter of its mean edge length away, or changes its height only,
+/// Moves a vertex to the best of a few places a quarter of its mean edge length away, or changes its height only,
 /// whichever lowers the squared error over the samples of its star most; locked ones stay, corners stay in plan,
 /// borders slide. `star` is scratch. Returns whether the vertex has moved.
 bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, Star& star);

@@ -4,6 +4,7 @@
 // Sources: Garland and Heckbert 1997 (quadric error), Lindstrom and Turk 1998 (quadrics of the present mesh),
 // and the paper's steps 2 to 7 with its half-space test, eq. 12-24, in the horizontal plane, where it is exact.
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -18,6 +19,7 @@ struct Labour {
   int refinements = 0;  // rounds of vertex moves, flips and further collapses after the first pass
   // Edges whose mean squared quadric error is more than this times the squared tolerance are not tried.
   double patience = std::numeric_limits<double>::infinity();
+  std::size_t directions = 8;  // in which vertices are moved: 4 or 8
 };
 
 Labour labour_of(Effort effort);
