@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/triangle_rows.hpp"
+#include "samples/triangle_error.hpp"
 
 namespace tinsmith {
 
@@ -69,26 +70,6 @@ bool stays_between(const WindowMesh& mesh, std::int32_t v, LatticePoint p) {
   return std::min(before, after) < p && p < std::max(before, after);
 }
 
-// Sum of the squared errors over the samples of a triangle; negative when one exceeds the tolerance.
-double squared_error(const RefineBound& bound, const Corner& a, const Corner& b, const Corner& c) {
-  const Plane plane = plane_through(a, b, c);
-  const TriangleRows rows(a.position, b.position, c.position);
-  const GridRect& r = bound.samples.rect;
-  double sum = 0;
-  for (std::int32_t y = rows.first_row; y <= rows.last_row; ++y) {
-    const auto [first, last] = rows.columns(y);
-    if (first > last) continue;
-    const double* z = bound.samples.z.data() + (static_cast<std::int64_t>(y - r.y0) * r.width + (first - r.x0));
-    const double start = plane.at(first, y);
-    for (std::int32_t i = 0; i <= last - first; ++i) {
-      const double error = start + i * plane.dx - z[i];
-      if (!(std::abs(error) <= bound.tolerance)) return -1;
-      sum += error * error;
-    }
-  }
-  return sum;
-}
-
 }  // namespace
 
 bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, Star& star) {
@@ -125,12 +106,13 @@ bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h) {
   const Corner d = corner(mesh, mesh.origin[at(WindowMesh::previous(g))]);
   if (orient(d.position, c.position, a.position) <= 0 || orient(c.position, d.position, b.position) <= 0)
     return false;
-  const double left = squared_error(bound, d, c, a);
-  if (left < 0) return false;
-  const double right = squared_error(bound, c, d, b);
-  if (right < 0) return false;
-  const double before = squared_error(bound, a, b, c) + squared_error(bound, b, a, d);
-  if (!(left + right < kWorthwhile * before)) return false;
+  const TriangleError left = triangle_error(bound.samples, d, c, a);
+  if (!(left.largest <= bound.tolerance)) return false;
+  const TriangleError right = triangle_error(bound.samples, c, d, b);
+  if (!(right.largest <= bound.tolerance)) return false;
+  const double before =
+      triangle_error(bound.samples, a, b, c).sum_of_squares + triangle_error(bound.samples, b, a, d).sum_of_squares;
+  if (!(left.sum_of_squares + right.sum_of_squares < kWorthwhile * before)) return false;
   flip_edge(mesh, h);
   return true;
 }

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/triangle_rows.hpp"
+#include "samples/triangle_error.hpp"
 #include "triangulate/outline.hpp"
 #include "triangulate/select.hpp"
 
@@ -85,9 +85,9 @@ class WindowTriangulation {
 
  private:
   struct Violation {
-    double error;
+    using Corners = std::array<Cdt::Vertex_handle, 3>;
     LatticePoint sample;
-    std::array<Cdt::Vertex_handle, 3> corners;
+    Corners corners;
   };
 
   // Few bits, so that row * aspect is exact: points in line on the grid are in line for CGAL too, else it would
@@ -115,7 +115,6 @@ class WindowTriangulation {
     return {f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
   }
   LatticePoint sample(std::int32_t i) const { return position_[static_cast<std::size_t>(i)]; }
-  double height(std::int32_t i) const { return samples_.at(sample(i).x, sample(i).y); }
 
   // The outline is constrained, so a triangle lies in valid cells wholly or not at all, and the cell of its
   // centroid tells.
@@ -127,11 +126,11 @@ class WindowTriangulation {
     return samples_.is_valid_cell(x, y);
   }
 
-  // The worst first; what lies in a triangle that has changed meanwhile waits until that has been measured.
+  // What lies in a triangle that has changed meanwhile waits until that has been measured.
   // Inserting all of them made a fifth more triangles.
   std::vector<Cdt::Face_handle> insert_worst(const std::vector<Violation>& violations) {
     std::vector<Cdt::Vertex_handle> inserted;
-    for (const auto& [error, sample, corners] : violations) {
+    for (const auto& [sample, corners] : violations) {
       Cdt::Face_handle f;
       if (!cdt_.is_face(corners[0], corners[1], corners[2], f)) continue;
       inserted.push_back(cdt_.insert(plan(sample), f));
@@ -154,37 +153,18 @@ class WindowTriangulation {
 
   void find_violation(Cdt::Face_handle f, std::vector<Violation>& found) const {
     if (!is_inside(f)) return;
-    const auto scaled = [&](std::int32_t i) {
-      return LatticePoint{sample(i).x * kLatticePerCell, sample(i).y * kLatticePerCell};
+    const auto corner = [&](Cdt::Vertex_handle v) {
+      const LatticePoint p = sample(v->info());
+      return Corner{{p.x * kLatticePerCell, p.y * kLatticePerCell}, samples_.at(p.x, p.y)};
     };
-    const auto [i, j, k] = names(f);
-    const LatticePoint a = scaled(i);
-    const LatticePoint b = scaled(j);
-    const LatticePoint c = scaled(k);
-    const Plane plane = plane_through({a, height(i)}, {b, height(j)}, {c, height(k)});
+    const Violation::Corners corners{f->vertex(0), f->vertex(1), f->vertex(2)};
+    const TriangleError error =
+        triangle_error(samples_, corner(corners[0]), corner(corners[1]), corner(corners[2]));
+    if (!(error.largest > options_.tolerance)) return;
     // The plane meets its own corners but for the rounding, which inserting them again would not mend.
-    const auto is_corner = [&](LatticePoint p) { return p == sample(i) || p == sample(j) || p == sample(k); };
-    const TriangleRows rows(a, b, c);
-    Violation worst{options_.tolerance, {}, {f->vertex(0), f->vertex(1), f->vertex(2)}};
-    for (std::int32_t y = rows.first_row; y <= rows.last_row; ++y) {
-      const auto [first, last] = rows.columns(y);
-      if (first > last) continue;
-      const double* z = row(y, first);
-      const double start = plane.at(first, y);
-      for (std::int32_t x = first; x <= last; ++x) {
-        const double error = std::abs(z[x - first] - (start + (x - first) * plane.dx));
-        if (error > worst.error && !is_corner({x, y})) {
-          worst.error = error;
-          worst.sample = {x, y};
-        }
-      }
-    }
-    if (worst.error > options_.tolerance) found.push_back(worst);
-  }
-
-  const double* row(std::int32_t y, std::int32_t first) const {
-    const GridRect& r = samples_.rect;
-    return samples_.z.data() + (static_cast<std::int64_t>(y - r.y0) * r.width + (first - r.x0));
+    const bool is_corner = std::any_of(corners.begin(), corners.end(),
+                                       [&](Cdt::Vertex_handle v) { return sample(v->info()) == error.worst; });
+    if (!is_corner) found.push_back({error.worst, corners});
   }
 
   // Names the vertices anew along a space-filling curve, and orders the triangles by them: what lies together in

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 // Compiled into the caller, with the instruction set of the caller.
 #define TINSMITH_INLINE inline __attribute__((always_inline))
@@ -14,7 +15,16 @@
 
 namespace tinsmith {
 
+#ifdef TINSMITH_HAS_AVX2_VARIANT
+/// Whether this machine has it.
+inline bool has_avx2() {
+  static const bool has = __builtin_cpu_supports("avx2");
+  return has;
+}
+#endif
+
 inline constexpr std::size_t kLanes = 4;
+inline constexpr auto kLaneStep = static_cast<std::int32_t>(kLanes);
 
 using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 using Quad = double __attribute__((vector_size(4 * sizeof(double))));
