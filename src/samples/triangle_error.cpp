@@ -20,7 +20,9 @@ struct ErrorSweep {
     const L zero = L::all(0);
     const L inside = min(min(four.area_a, four.area_b), four.area_p(t));
     const L z = samples.template load<L>(four.index);
-    const L error = where_less(inside, zero, zero, (z - L::all(reference)) - four.base(t));
+    // Divided, not multiplied by an inverse: an exact plane has no error.
+    const L plane = (four.area_a * L::all(t.height_a) + four.area_b * L::all(t.height_b)) / L::all(t.area);
+    const L error = where_less(inside, zero, zero, (z - L::all(reference)) - plane);
     const L distance = max(error, zero - error);
     worst_at = where_less(largest, distance, four.indices(), worst_at);
     largest = max(distance, largest);

@@ -50,6 +50,7 @@ struct SweptTriangle {
   double ax, ay, bx, by;
   double area;
   double inverse_area;
+  double height_a, height_b;
   double rise_a, rise_b;  // height of the corner per unit of its area
 
   TINSMITH_INLINE SweptTriangle(LatticePoint p, const Corner& a, const Corner& b, double reference)
@@ -59,8 +60,10 @@ struct SweptTriangle {
         by(b.position.y - p.y),
         area(ax * by - ay * bx),
         inverse_area(1 / area),
-        rise_a((a.height - reference) * inverse_area),
-        rise_b((b.height - reference) * inverse_area) {}
+        height_a(a.height - reference),
+        height_b(b.height - reference),
+        rise_a(height_a * inverse_area),
+        rise_b(height_b * inverse_area) {}
 };
 
 // Four samples in a row, in or near the triangle: the areas that they span with its sides, and where they are.
