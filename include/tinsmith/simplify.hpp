@@ -1,0 +1,73 @@
+#pragma once
+// The paper's algorithm for any surface: edge collapse by quadric error with a half-space test, attributes, borders
+// and feature edges.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tinsmith/options.hpp"
+#include "tinsmith/progress.hpp"
+#include "tinsmith/surface.hpp"
+
+namespace tinsmith {
+
+/// How geometry and attributes share a quadric.
+enum class QuadricForm {
+  kSeparate,  // one each, in three dimensions: 20 coefficients with one attribute (the paper, eq. 25-28)
+  kCombined,  // one in six dimensions: 28 coefficients (Garland and Heckbert 1998)
+};
+
+/// When to stop: at the first that is reached; without any, when no edge can be collapsed.
+struct SimplifySurfaceOptions {
+  std::optional<double> triangles;  // at most so many
+  std::optional<double> ratio;      // the same as a fraction (0 to 1] of the input's
+  std::optional<double> max_cost;   // no collapse that costs more (mean squared distance, square units of the mesh)
+  Placement placement = Placement::kOptimal;
+  bool area_weights = true;  // planes count by the area of their triangles; false: all the same (eq. 3 as printed)
+  bool half_space = true;    // eq. 12-24: no triangle may turn over
+  QuadricForm quadric = QuadricForm::kSeparate;
+  double attribute_weight = 1;   // alpha of Cost = E_g + alpha E_c; 0: attributes follow and cost nothing
+  std::optional<double> crease;  // degrees: edges whose triangles meet at more than that are features
+  bool keep_seams = true;        // edges along which colours or normals differ are features
+  std::vector<std::array<std::uint32_t, 2>> feature_edges;  // more of them, by vertices of the input
+  Progress progress;
+};
+
+/// What was wrong with a surface (definitions 1 to 4 of the paper), and what became of it.
+struct SurfaceDefects {
+  std::uint64_t duplicated_triangles = 0;   // the same three vertices again: removed
+  std::uint64_t degenerate_triangles = 0;   // a vertex twice, or no area: removed where a vertex is twice
+  std::uint64_t flipped_triangles = 0;      // against their neighbours' orientation: turned over
+  std::uint64_t non_manifold_edges = 0;     // more than two triangles: kept, their vertices locked
+  std::uint64_t non_manifold_vertices = 0;  // more than one fan: kept, locked
+  std::uint64_t unorientable_edges = 0;     // of a surface like Moebius's: kept, their vertices locked
+  std::uint64_t unreferenced_vertices = 0;  // removed
+
+  bool any() const {
+    return duplicated_triangles + degenerate_triangles + flipped_triangles + non_manifold_edges +
+               non_manifold_vertices + unorientable_edges + unreferenced_vertices >
+           0;
+  }
+};
+
+/// What happened.
+struct SimplifySurfaceReport {
+  SurfaceDefects defects;
+  std::uint64_t input_vertices = 0;
+  std::uint64_t input_triangles = 0;
+  std::uint64_t border_edges = 0;   // of the input
+  std::uint64_t feature_edges = 0;  // of the input, borders not counted
+  std::uint64_t collapses = 0;
+  std::uint64_t refused_topology = 0;  // link condition, corners, features that would be torn
+  std::uint64_t refused_half_space = 0;
+  double last_cost = 0;  // of the costliest collapse that was made
+};
+
+/// The simplified surface. Throws UsageError for options out of range and Interrupted.
+Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& options,
+                         SimplifySurfaceReport& report);
+
+}  // namespace tinsmith
