@@ -99,10 +99,10 @@ inline Surface open_sheet(int n, std::uint64_t seed = 1) {
   std::mt19937_64 generator(seed);
   std::array<std::array<double, 4>, 6> waves{};
   for (auto& [kx, ky, phase, height] : waves) {
-    kx = 20 * (unit_random(generator) - 0.5);
-    ky = 20 * (unit_random(generator) - 0.5);
+    kx = 40 * (unit_random(generator) - 0.5);
+    ky = 40 * (unit_random(generator) - 0.5);
     phase = 2 * std::numbers::pi * unit_random(generator);
-    height = 0.03 * unit_random(generator);
+    height = 0.05 * unit_random(generator);
   }
   Surface s;
   for (int j = 0; j <= n; ++j)
