@@ -15,7 +15,7 @@ enum class VertexKind : std::uint8_t {
 
 /// Where the vertex lies that replaces both ends of an edge (v0, v1).
 enum class Freedom : std::uint8_t {
-  kNone,      // the edge never collapses
+  kNever,     // the edge never collapses
   kAnywhere,  // in the kernel of the star
   kAlong,     // on the straight line of the border
   kAtFirst,   // where v0 is
@@ -28,8 +28,8 @@ inline constexpr std::array<std::array<Freedom, 4>, 4> kFreedom{{
     //               interior            border              corner              locked
     /* interior */ {{Freedom::kAnywhere, Freedom::kAtSecond, Freedom::kAtSecond, Freedom::kAtSecond}},
     /* border   */ {{Freedom::kAtFirst, Freedom::kAlong, Freedom::kAtSecond, Freedom::kAtSecond}},
-    /* corner   */ {{Freedom::kAtFirst, Freedom::kAtFirst, Freedom::kNone, Freedom::kNone}},
-    /* locked   */ {{Freedom::kAtFirst, Freedom::kAtFirst, Freedom::kNone, Freedom::kNone}},
+    /* corner   */ {{Freedom::kAtFirst, Freedom::kAtFirst, Freedom::kNever, Freedom::kNever}},
+    /* locked   */ {{Freedom::kAtFirst, Freedom::kAtFirst, Freedom::kNever, Freedom::kNever}},
 }};
 
 inline Freedom freedom(VertexKind k0, VertexKind k1) {

@@ -2,71 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <span>
-#include <utility>
-
-#include "base/check.hpp"
-
 namespace tinsmith {
 
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-struct Leaving {
-  std::int32_t destination;
-  std::int32_t halfedge;
-};
-
-// Halfedges by origin, as one array with offsets.
-struct Outgoing {
-  std::vector<std::int32_t> first;
-  std::vector<Leaving> leaving;
-
-  std::span<const Leaving> of(std::int32_t v) const {
-    return {leaving.data() + first[at(v)], leaving.data() + first[at(v) + 1]};
-  }
-};
-
-Outgoing outgoing_of(const WindowMesh& mesh) {
-  Outgoing result;
-  result.first.assign(mesh.position.size() + 1, 0);
-  result.leaving.resize(mesh.origin.size());
-  for (const std::int32_t v : mesh.origin) ++result.first[at(v) + 1];
-  for (std::size_t v = 0; v < mesh.position.size(); ++v) result.first[v + 1] += result.first[v];
-  std::vector<std::int32_t> fill(result.first.begin(), result.first.end() - 1);
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h)
-    result.leaving[at(fill[at(mesh.origin[at(h)])]++)] = {mesh.destination(h), h};
-  return result;
-}
-
-void pair_twins(WindowMesh& mesh, const Outgoing& outgoing) {
-  mesh.twin.assign(mesh.origin.size(), kNone);
-  for (std::int32_t v = 0; v < mesh.n_vertices(); ++v) {
-    for (const Leaving& there : outgoing.of(v)) {
-      if (there.destination < v) continue;
-      for (const Leaving& back : outgoing.of(there.destination)) {
-        if (back.destination != v) continue;
-        mesh.twin[at(there.halfedge)] = back.halfedge;
-        mesh.twin[at(back.halfedge)] = there.halfedge;
-        break;
-      }
-    }
-  }
-}
-
-// The first halfedge of the fan that h belongs to: clockwise as far as it goes; of a closed fan the smallest.
-std::int32_t fan_start(const WindowMesh& mesh, std::int32_t h) {
-  std::int32_t smallest = h;
-  std::int32_t g = h;
-  while (mesh.twin[at(g)] != kNone) {
-    g = WindowMesh::next(mesh.twin[at(g)]);
-    if (g == h) return smallest;
-    smallest = std::min(smallest, g);
-  }
-  return g;
-}
 
 std::int32_t copy_vertex(WindowMesh& mesh, std::int32_t v) {
   mesh.position.push_back(mesh.position[at(v)]);
@@ -77,133 +17,39 @@ std::int32_t copy_vertex(WindowMesh& mesh, std::int32_t v) {
   return mesh.n_vertices() - 1;
 }
 
-// The number of halfedges in the fan from `start`.
-std::size_t fan_size(const WindowMesh& mesh, std::int32_t start) {
-  std::size_t n = 0;
+// Gives the fan of h a vertex of its own, unless it is the first of its vertex or has one already.
+void separate_fan(WindowMesh& mesh, std::int32_t h) {
+  const std::int32_t v = mesh.origin[at(h)];
+  const std::int32_t start = fan_start(mesh, h);
+  if (start == mesh.out[at(v)]) return;
+  const std::int32_t copy = copy_vertex(mesh, v);
+  mesh.out[at(copy)] = start;
   std::int32_t g = start;
   do {
-    ++n;
+    mesh.origin[at(g)] = copy;
     g = mesh.turn(g);
   } while (g != kNone && g != start);
-  return n;
-}
-
-// Gives each fan of v a vertex of its own; the first fan keeps v.
-void separate_fans(WindowMesh& mesh, std::int32_t v, std::span<const Leaving> leaving) {
-  if (leaving.empty()) return;
-  mesh.out[at(v)] = fan_start(mesh, leaving.front().halfedge);
-  if (fan_size(mesh, mesh.out[at(v)]) == leaving.size()) return;
-  mesh.kind[at(v)] = VertexKind::kLocked;
-  for (const Leaving& one : leaving.subspan(1)) {
-    const std::int32_t start = fan_start(mesh, one.halfedge);
-    if (start == mesh.out[at(v)] || mesh.origin[at(start)] != v) continue;  // has its vertex
-    const std::int32_t copy = copy_vertex(mesh, v);
-    mesh.out[at(copy)] = start;
-    std::int32_t g = start;
-    do {
-      mesh.origin[at(g)] = copy;
-      g = mesh.turn(g);
-    } while (g != kNone && g != start);
-  }
-}
-
-// Joins the outer neighbours of the triangle of h, which falls away; the vertex opposite to h keeps a halfedge.
-void close_triangle(WindowMesh& mesh, std::int32_t h) {
-  const std::int32_t a = mesh.twin[at(WindowMesh::next(h))];
-  const std::int32_t b = mesh.twin[at(WindowMesh::previous(h))];
-  const std::int32_t apex = mesh.origin[at(WindowMesh::previous(h))];
-  TINSMITH_ASSERT(a != kNone || b != kNone);
-  if (mesh.out[at(apex)] == WindowMesh::previous(h)) mesh.out[at(apex)] = a;
-  if (a != kNone) mesh.twin[at(a)] = b;
-  if (b != kNone) mesh.twin[at(b)] = a;
-  const std::int32_t t = h / 3 * 3;
-  for (std::int32_t k = 0; k < 3; ++k) mesh.origin[at(t + k)] = kNone;
 }
 
 }  // namespace
 
 void connect(WindowMesh& mesh, const std::vector<std::array<std::int32_t, 3>>& triangles) {
-  mesh.origin.clear();
-  mesh.origin.reserve(triangles.size() * 3);
-  for (const auto& t : triangles) mesh.origin.insert(mesh.origin.end(), t.begin(), t.end());
-  mesh.kind.assign(mesh.position.size(), VertexKind::kInterior);
-  mesh.out.assign(mesh.position.size(), kNone);
-  const Outgoing outgoing = outgoing_of(mesh);
-  pair_twins(mesh, outgoing);
-  const std::int32_t n = mesh.n_vertices();
-  for (std::int32_t v = 0; v < n; ++v) separate_fans(mesh, v, outgoing.of(v));
+  const std::size_t n = mesh.position.size();
+  const std::vector<std::int32_t> pinched = connect(mesh, triangles, n);
+  mesh.kind.assign(n, VertexKind::kInterior);
+  if (pinched.empty()) return;
+  for (const std::int32_t v : pinched) mesh.kind[at(v)] = VertexKind::kLocked;
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    const std::int32_t v = mesh.origin[at(h)];
+    const bool is_first_copy = static_cast<std::size_t>(v) < n;
+    if (is_first_copy && mesh.kind[at(v)] == VertexKind::kLocked) separate_fan(mesh, h);
+  }
 }
 
-//        vl
-//       /  \          h runs from v0 to v1, g back. One of them goes, and the triangles (v0, v1, vl) and
-//     v0 -> v1        (v1, v0, vr) fall away.
-//       \  /
-//        vr
 void collapse_edge(WindowMesh& mesh, std::int32_t h, std::int32_t kept, const Place& place) {
-  const std::int32_t gone = mesh.origin[at(h)] == kept ? mesh.destination(h) : mesh.origin[at(h)];
-  const std::int32_t g = mesh.twin[at(h)];
-  const std::int32_t start = mesh.out[at(gone)];
-  std::int32_t f = start;
-  do {
-    mesh.origin[at(f)] = kept;
-    f = mesh.turn(f);
-  } while (f != kNone && f != start);
-  // A halfedge that leaves the new vertex, outside of (v0, v1, vl): from it the start of the fan is found.
-  std::int32_t leaving = mesh.twin[at(WindowMesh::previous(h))];
-  if (leaving == kNone) leaving = WindowMesh::next(mesh.twin[at(WindowMesh::next(h))]);
-  close_triangle(mesh, h);
-  if (g != kNone) close_triangle(mesh, g);
-  mesh.out[at(gone)] = kNone;
-  mesh.out[at(kept)] = fan_start(mesh, leaving);
+  collapse_edge(mesh, h, kept);
   mesh.position[at(kept)] = place.position;
   mesh.height[at(kept)] = place.height;
-}
-
-//        c                 c
-//      /   \             / | \         h ran from a to b, now from d to c; its triangle was (a, b, c) and is
-//     a --> b    -->     a  |  b        (d, c, a), that of its twin was (b, a, d) and is (c, d, b).
-//      \   /             \ | /
-//        d                 d
-void flip_edge(WindowMesh& mesh, std::int32_t h) {
-  const std::int32_t g = mesh.twin[at(h)];
-  const std::int32_t h_next = WindowMesh::next(h);
-  const std::int32_t h_previous = WindowMesh::previous(h);
-  const std::int32_t g_next = WindowMesh::next(g);
-  const std::int32_t g_previous = WindowMesh::previous(g);
-  const std::int32_t a = mesh.origin[at(h)];
-  const std::int32_t b = mesh.origin[at(g)];
-  const std::int32_t c = mesh.origin[at(h_previous)];
-  const std::int32_t d = mesh.origin[at(g_previous)];
-  const auto pair = [&](std::int32_t e, std::int32_t outside) {
-    mesh.twin[at(e)] = outside;
-    if (outside != kNone) mesh.twin[at(outside)] = e;
-  };
-  const auto rename_out = [&](std::int32_t v, std::initializer_list<std::int32_t> before, std::int32_t now) {
-    for (const std::int32_t e : before) {
-      if (mesh.out[at(v)] == e) {
-        mesh.out[at(v)] = now;
-        return;
-      }
-    }
-  };
-  rename_out(a, {h, g_next}, h_previous);
-  rename_out(b, {g, h_next}, g_previous);
-  rename_out(c, {h_previous}, h_next);
-  rename_out(d, {g_previous}, g_next);
-  const std::int32_t beside_bc = mesh.twin[at(h_next)];
-  const std::int32_t beside_ca = mesh.twin[at(h_previous)];
-  const std::int32_t beside_ad = mesh.twin[at(g_next)];
-  const std::int32_t beside_db = mesh.twin[at(g_previous)];
-  mesh.origin[at(h)] = d;
-  mesh.origin[at(h_next)] = c;
-  mesh.origin[at(h_previous)] = a;
-  mesh.origin[at(g)] = c;
-  mesh.origin[at(g_next)] = d;
-  mesh.origin[at(g_previous)] = b;
-  pair(h_next, beside_ca);
-  pair(h_previous, beside_ad);
-  pair(g_next, beside_db);
-  pair(g_previous, beside_bc);
 }
 
 namespace {

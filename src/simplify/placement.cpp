@@ -32,7 +32,7 @@ struct EdgeFrame {
 
 Freedom freedom_of(const Edge& edge) {
   const bool needs_border = edge.v0.kind != VertexKind::kInterior && edge.v1.kind != VertexKind::kInterior;
-  return needs_border && !edge.is_border ? Freedom::kNone : freedom(edge.v0.kind, edge.v1.kind);
+  return needs_border && !edge.is_border ? Freedom::kNever : freedom(edge.v0.kind, edge.v1.kind);
 }
 
 bool has_fixed_height(const EdgeEnd& end, const PlacementRules& rules) {
@@ -102,7 +102,7 @@ PlanPoint best_point(const EdgeFrame& frame, Freedom free, const PlacementRules&
 
 double edge_cost(const Edge& edge, const PlacementRules& rules) {
   const Freedom free = freedom_of(edge);
-  if (free == Freedom::kNone) return std::numeric_limits<double>::infinity();
+  if (free == Freedom::kNever) return std::numeric_limits<double>::infinity();
   const EdgeFrame frame(edge);
   if (free == Freedom::kAtFirst || free == Freedom::kAtSecond)
     return cost_at_end(frame, free == Freedom::kAtSecond, rules);
@@ -115,7 +115,7 @@ double edge_cost(const Edge& edge, const PlacementRules& rules) {
 Candidates place(const Edge& edge, const PlacementRules& rules) {
   Candidates result;
   const Freedom free = freedom_of(edge);
-  if (free == Freedom::kNone) return result;
+  if (free == Freedom::kNever) return result;
   const EdgeFrame frame(edge);
   if (free == Freedom::kAtFirst || free == Freedom::kAtSecond) {
     result.add(at_end(frame, free == Freedom::kAtSecond, rules));
