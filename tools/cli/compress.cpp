@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <thread>
 
+#include "choose.hpp"
 #include "compress_summary.hpp"
 #include "input_flags.hpp"
 #include "inputs.hpp"
@@ -91,23 +91,13 @@ void require_one_stop(const Flags& flags) {
   if (flags.max_error) require_tolerance("--max-error", *flags.max_error);
 }
 
-template <class Choice>
-Choice choose(const std::string& flag, const std::string& name, const std::map<std::string, Choice>& choices) {
-  if (const auto choice = choices.find(name); choice != choices.end()) return choice->second;
-  std::string names;
-  for (const auto& [known, value] : choices) names += (names.empty() ? "" : ", ") + known;
-  throw UsageError(fmt::format("{} {}: there is no such; use one of {}", flag, name, names));
-}
-
 CompressOptions to_options(const Flags& flags) {
   require_one_stop(flags);
   CompressOptions options;
   options.max_error = flags.max_error;
   options.triangles = flags.triangles;
   options.ratio = flags.ratio;
-  options.placement = choose<Placement>(
-      "--placement", flags.placement,
-      {{"optimal", Placement::kOptimal}, {"segment", Placement::kSegment}, {"subset", Placement::kSubset}});
+  options.placement = choose_placement(flags.placement);
   options.effort = choose<Effort>(
       "--effort", flags.effort, {{"fast", Effort::kFast}, {"default", Effort::kDefault}, {"best", Effort::kBest}});
   options.window = flags.window;
