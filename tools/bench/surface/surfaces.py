@@ -1,0 +1,140 @@
+#!/usr/bin/python3
+"""Simplifies surfaces with tinsmith and its peers, judges all results with VTK and numpy, and writes a table.
+
+Started by run.sh, which builds what is needed and fetches the meshes.
+"""
+
+import argparse
+import json
+import pathlib
+import shlex
+import subprocess
+import sys
+
+import numpy as np
+
+import judge
+import meshes
+import plain_ply
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import measure  # noqa: E402
+import tools  # noqa: E402
+
+TOOLS = {
+    "tinsmith": "{build}/tinsmith simplify {mesh} {out} --triangles {n} --json -",
+    "cgal-gh": "{build}/peers/cgal_surface gh {mesh} {n} {out}",
+    "cgal-lt": "{build}/peers/cgal_surface lt {mesh} {n} {out}",
+    "vtk-quadric": "/usr/bin/python3 -B {here}/vtk_surface.py quadric {mesh} {n} {out}",
+    "vtk-pro": "/usr/bin/python3 -B {here}/vtk_surface.py pro {mesh} {n} {out}",
+    "meshopt": "{build}/peers/meshopt_surface {mesh} {n} {out}",
+}
+LIMIT = 600  # seconds for one run
+
+HEADER = ("| triangles asked | tool | triangles | Hausdorff | RMS | s | us per removed | MB | turned edges | genus "
+          "| borders | parts |\n|---|---|---|---|---|---|---|---|---|---|---|---|")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="run.sh", description=__doc__)
+    parser.add_argument("--build", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--mesh", action="append", help=f"of {', '.join(meshes.MESHES)}, or a plain .ply (default: all "
+                        "named); may be given again")
+    parser.add_argument("--share", action="append", type=float, help="percent of the triangles (default 50, 20, 5, 1)")
+    parser.add_argument("--tool", action="append", choices=list(TOOLS), help="(default: all)")
+    parser.add_argument("--option", default="", help="more options for tinsmith simplify, in one word")
+    parser.add_argument("--repeat", type=int, default=1, help="runs of each, of which the fastest counts")
+    parser.add_argument("--out", type=pathlib.Path, help="the table as Markdown (default: BUILD/surface/RESULTS.md)")
+    return parser.parse_args()
+
+
+def command_of(tool, options, mesh, n_triangles, out):
+    words = TOOLS[tool].format(build=options.build, here=HERE, mesh=mesh, n=n_triangles, out=out).split()
+    return words + shlex.split(options.option) if tool == "tinsmith" else words
+
+
+def run_once(command):
+    """What it cost: seconds of the simplification alone as the program measured them, without reading and writing."""
+    cost = measure.run(command, LIMIT)
+    if cost["exit_code"] != 0:
+        reason = "took too long" if cost["limit_hit"] else (cost["stderr"].strip().splitlines() or ["?"])[-1]
+        return {"failure": reason}
+    said = json.loads(cost["stdout"])
+    seconds = said.get("own_seconds", said.get("simplify_seconds"))
+    return {"seconds": seconds, "peak_memory": cost["peak_memory"]}
+
+
+def run(tool, options, mesh, n_triangles):
+    out = options.build / "surface" / "result.ply"
+    out.unlink(missing_ok=True)
+    command = command_of(tool, options, mesh["path"], n_triangles, out)
+    runs = [run_once(command) for _ in range(options.repeat)]
+    failed = [one for one in runs if "failure" in one]
+    if failed:
+        return failed[0]
+    best = min(runs, key=lambda one: one["seconds"])
+    vertices, triangles = plain_ply.read(out)
+    if len(triangles) == 0:
+        return {"failure": "no triangle is left"}
+    hausdorff, rms = judge.distance(mesh["surface"], (vertices, triangles))
+    return {**best, **judge.facts(vertices, triangles), "triangles": len(triangles),
+            "hausdorff": hausdorff / mesh["diagonal"], "rms": rms / mesh["diagonal"]}
+
+
+def load(name, folder):
+    path = meshes.prepare(name, folder) if name in meshes.MESHES else pathlib.Path(name)
+    surface = plain_ply.read(path)
+    diagonal = np.linalg.norm(np.ptp(surface[0], axis=0))
+    return {"name": path.stem, "path": path, "surface": surface, "diagonal": diagonal, "facts": judge.facts(*surface)}
+
+
+def row(share, tool, result, n_input):
+    start = f"| {share:g} % | {tool} |"
+    if "failure" in result:
+        return f"{start} failed: {result['failure']} | | | | | | | | | |"
+    per_triangle = 1e6 * result["seconds"] / max(1, n_input - result["triangles"])
+    return (f"{start} {result['triangles']} | {1e3 * result['hausdorff']:.4f} | {1e3 * result['rms']:.5f} | "
+            f"{result['seconds']:.3f} | {per_triangle:.2f} | {result['peak_memory'] / 1e6:.0f} | "
+            f"{result['turned_edges']} | {result['genus']:g} | {result['borders']} | {result['components']} |")
+
+
+def table(options, mesh):
+    """Line by line, as the runs end."""
+    n_input, facts = len(mesh["surface"][1]), mesh["facts"]
+    yield (f"\n### {mesh['name']}: {n_input} triangles, genus {facts['genus']:g}, {facts['borders']} borders, "
+           f"{facts['components']} parts, {facts['turned_edges']} turned edges\n\n{HEADER}")
+    for share in options.share or [50, 20, 5, 1]:
+        for tool in options.tool or TOOLS:
+            yield row(share, tool, run(tool, options, mesh, round(n_input * share / 100)), n_input)
+
+
+def version_of(package):
+    return subprocess.run(["dpkg-query", "-W", "-f", "${Version}", package], capture_output=True, text=True).stdout
+
+
+def preface(options):
+    m = tools.machine()
+    option = f" with `{options.option}`" if options.option else ""
+    peers = ", ".join(f"{name} {version_of(package)}" for name, package in
+                      (("CGAL", "libcgal-dev"), ("VTK", "python3-vtk9"), ("meshoptimizer", "libmeshoptimizer-dev")))
+    return (f"tinsmith{option} and {peers}, on {m['processor']}, one thread each. Distances are symmetric, between "
+            f"{judge.N_SAMPLES} samples (for the largest one also the vertices) and the other surface, as thousandths of "
+            "the diagonal of the mesh's box, by VTK. Seconds: the simplification alone, without files. Turned edges: the "
+            "normals of the two triangles are more than 90 degrees apart.")
+
+
+def main():
+    options = arguments()
+    folder = options.build / "surface"
+    out = options.out or folder / "RESULTS.md"
+    with open(out, "w") as file:
+        print(preface(options), file=file)
+        for name in options.mesh or meshes.MESHES:
+            for text in table(options, load(name, folder)):
+                print(text, flush=True)
+                print(text, file=file, flush=True)
+    print(f"written: {out}", file=sys.stderr)
+
+
+main()
