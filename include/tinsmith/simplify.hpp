@@ -31,7 +31,7 @@ struct SimplifySurfaceOptions {
   QuadricForm quadric = QuadricForm::kSeparate;
   double attribute_weight = 1;   // alpha of Cost = E_g + alpha E_c; 0: attributes follow and cost nothing
   std::optional<double> crease;  // degrees: edges whose triangles meet at more than that are features
-  bool keep_seams = true;        // edges along which colours or normals differ are features
+  bool keep_seams = true;  // edges along which colours or normals differ are features; false: one side's remain
   std::vector<std::array<std::uint32_t, 2>> feature_edges;  // more of them, by vertices of the input
   Progress progress;
 };

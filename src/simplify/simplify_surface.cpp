@@ -1,0 +1,473 @@
+// Edge collapse on surfaces in space: the paper's steps 1 to 7.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <span>
+
+#include "geometry/half_space_test.hpp"
+#include "simplify/surface_attributes.hpp"
+#include "simplify/surface_mesh.hpp"
+#include "tinsmith/error.hpp"
+#include "tinsmith/simplify.hpp"
+
+namespace tinsmith {
+
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Planes through border and feature edges, perpendicular to their triangles, weigh that much of the squared length.
+constexpr double kFeatureWeight = 1;
+
+// More triangles than this around one vertex are slow to walk.
+constexpr std::size_t kMaxStar = 128;
+
+Vec<3> along(const Vec<3>& a, const Vec<3>& b, double t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
+
+struct Collapse {
+  double cost = kInfinity;  // E_g + alpha E_c
+  Vec<3> position{};
+  double t = 0.5;  // where between the ends, for what is interpolated
+};
+
+class SurfaceSimplifier {
+ public:
+  SurfaceSimplifier(SurfaceMesh& mesh, SurfaceAttributes& attributes, const SimplifySurfaceOptions& options,
+                    SimplifySurfaceReport& report)
+      : mesh_(mesh),
+        attributes_(attributes),
+        options_(options),
+        report_(report),
+        geometry_(mesh.position.size()),
+        version_(mesh.origin.size(), 0),
+        is_refused_(mesh.origin.size(), 0),
+        mark_(mesh.position.size(), 0),
+        n_triangles_(mesh.origin.size() / 3) {}
+
+  void run(double target) {
+    sum_quadrics();
+    for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
+      if (h > mesh_.twin[at(h)]) push(h);
+    }
+    const auto n_start = static_cast<double>(n_triangles_);
+    std::uint64_t n_steps = 0;
+    while (!queue_.empty() && static_cast<double>(n_triangles_) > target) {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (mesh_.origin[at(entry.halfedge)] == kNone || version_[at(entry.halfedge)] != entry.version) continue;
+      if (options_.max_cost && mean_squared_distance(entry.halfedge) > *options_.max_cost) continue;
+      try_collapse(entry.halfedge);
+      if (++n_steps % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target));
+    }
+    tell(1);
+  }
+
+ private:
+  struct Entry {
+    float cost;
+    std::int32_t halfedge;
+    std::uint32_t version;
+    // The cheapest first, ties by number.
+    bool operator<(const Entry& other) const {
+      return cost != other.cost ? cost > other.cost : halfedge > other.halfedge;
+    }
+  };
+
+  void tell(double fraction) {
+    if (options_.progress && !options_.progress(std::clamp(fraction, 0.0, 1.0), "simplify"))
+      throw Interrupted("interrupted; nothing was written");
+  }
+
+  // ---- step 2 and 3: quadrics of triangles and vertices
+
+  void sum_quadrics() {
+    for (std::int32_t h = 0; h < mesh_.n_halfedges(); h += 3) {
+      const Vec<3>& a = point(h);
+      Vec<3> n = cross(point(h + 1) - a, point(h + 2) - a);
+      const double length = std::sqrt(dot(n, n));
+      if (!(length > 0)) continue;
+      for (double& x : n) x /= length;
+      Quadric<3> quadric;
+      quadric.add_plane(n, a, triangle_weight(mesh_, h, options_.area_weights));
+      for (std::int32_t k = 0; k < 3; ++k) geometry_[at(mesh_.origin[at(h + k)])] += quadric;
+      for (std::int32_t k = 0; k < 3; ++k) {
+        if (mesh_.is_feature[at(h + k)]) add_feature_plane(h + k, n);
+      }
+    }
+  }
+
+  void add_feature_plane(std::int32_t h, const Vec<3>& n) {
+    const Vec<3> edge = point(Halfedges::next(h)) - point(h);
+    Vec<3> m = cross(edge, n);
+    const double length = std::sqrt(dot(m, m));
+    if (!(length > 0)) return;
+    for (double& x : m) x /= length;
+    Quadric<3> quadric;
+    quadric.add_plane(m, point(h), options_.area_weights ? kFeatureWeight * dot(edge, edge) : 1);
+    geometry_[at(mesh_.origin[at(h)])] += quadric;
+    geometry_[at(mesh_.destination(h))] += quadric;
+  }
+
+  const Vec<3>& point(std::int32_t h) const { return mesh_.position[at(mesh_.origin[at(h)])]; }
+
+  // ---- step 4: cost and new vertex of an edge
+
+  SurfaceVertexKind kind(std::int32_t v) const { return mesh_.kind[at(v)]; }
+
+  bool may_collapse(std::int32_t h) const {
+    const SurfaceVertexKind k0 = kind(mesh_.origin[at(h)]);
+    const SurfaceVertexKind k1 = kind(mesh_.destination(h));
+    if (std::min(k0, k1) == SurfaceVertexKind::kInterior) return true;
+    return std::min(k0, k1) == SurfaceVertexKind::kFeature && mesh_.is_feature[at(h)];
+  }
+
+  // The pairs of wedges that a collapse makes one: those of its left triangle, and of its right one if they differ.
+  struct WedgePair {
+    std::int32_t w0;
+    std::int32_t w1;
+  };
+  std::span<const WedgePair> wedge_pairs(std::int32_t h) {
+    pairs_[0] = {mesh_.wedge[at(h)], mesh_.wedge[at(Halfedges::next(h))]};
+    const std::int32_t g = mesh_.twin[at(h)];
+    if (g == kNone) return {pairs_.data(), 1};
+    pairs_[1] = {mesh_.wedge[at(Halfedges::next(g))], mesh_.wedge[at(g)]};
+    const bool is_same = pairs_[0].w0 == pairs_[1].w0 && pairs_[0].w1 == pairs_[1].w1;
+    return {pairs_.data(), is_same ? std::size_t{1} : std::size_t{2}};
+  }
+
+  double attribute_cost(std::int32_t h, double t, int fixed_end) {
+    if (attributes_.fields.empty() || options_.attribute_weight == 0) return 0;
+    double cost = 0;
+    for (const WedgePair& pair : wedge_pairs(h)) {
+      for (const AttributeField& field : attributes_.fields) {
+        const Quadric<3> quadric = sum_of(field, pair);
+        cost += std::max(0.0, quadric.at(value_at(field, pair, t, fixed_end)));
+      }
+    }
+    return options_.attribute_weight * cost;
+  }
+
+  static Quadric<3> sum_of(const AttributeField& field, const WedgePair& pair) {
+    Quadric<3> quadric = field.quadric[at(pair.w0)];
+    if (pair.w1 != pair.w0) quadric += field.quadric[at(pair.w1)];
+    return quadric;
+  }
+
+  // Of the new vertex: an end's own when the vertex stays there.
+  Vec<3> value_at(const AttributeField& field, const WedgePair& pair, double t, int fixed_end) const {
+    if (fixed_end == 0) return field.value[at(pair.w0)];
+    if (fixed_end == 1) return field.value[at(pair.w1)];
+    const Vec<3> between = along(field.value[at(pair.w0)], field.value[at(pair.w1)], t);
+    return best_value(sum_of(field, pair), between, field.kind);
+  }
+
+  // 0 or 1: the end at which the new vertex has to stay; -1: none.
+  int fixed_end(std::int32_t h) const {
+    const SurfaceVertexKind k0 = kind(mesh_.origin[at(h)]);
+    const SurfaceVertexKind k1 = kind(mesh_.destination(h));
+    if (k0 == k1) return -1;
+    return k0 > k1 ? 0 : 1;
+  }
+
+  Collapse at_end(std::int32_t h, int end, const Quadric<3>& quadric) {
+    const Vec<3>& p = mesh_.position[at(end == 0 ? mesh_.origin[at(h)] : mesh_.destination(h))];
+    return {std::max(0.0, quadric.at(p)) + attribute_cost(h, end, end), p, static_cast<double>(end)};
+  }
+
+  Collapse at_place(std::int32_t h, const Vec<3>& p, const Quadric<3>& quadric) {
+    const Vec<3> edge = point(Halfedges::next(h)) - point(h);
+    const double squared = dot(edge, edge);
+    const double t = squared > 0 ? std::clamp(dot(p - point(h), edge) / squared, 0.0, 1.0) : 0.5;
+    return {std::max(0.0, quadric.at(p)) + attribute_cost(h, t, -1), p, t};
+  }
+
+  Collapse best(std::int32_t h) {
+    if (!may_collapse(h)) return {};
+    Quadric<3> quadric = geometry_[at(mesh_.origin[at(h)])];
+    quadric += geometry_[at(mesh_.destination(h))];
+    const int fixed = fixed_end(h);
+    if (fixed >= 0) return at_end(h, fixed, quadric);
+    const Vec<3>& v0 = point(h);
+    const Vec<3>& v1 = point(Halfedges::next(h));
+    if (options_.placement == Placement::kOptimal) {
+      Vec<3> p;
+      if (minimum(quadric, p) && is_near(p, v0, v1)) return at_place(h, p, quadric);
+    }
+    if (options_.placement == Placement::kSegment) return at_place(h, on_segment(quadric, v0, v1), quadric);
+    const Collapse first = at_end(h, 0, quadric);
+    const Collapse second = at_end(h, 1, quadric);
+    Collapse least = second.cost < first.cost ? second : first;
+    if (options_.placement == Placement::kOptimal) {
+      const Collapse middle = at_place(h, along(v0, v1, 0.5), quadric);
+      if (middle.cost <= least.cost) least = middle;
+    }
+    return least;
+  }
+
+  // Far off the quadric knows nothing about the surface.
+  static bool is_near(const Vec<3>& p, const Vec<3>& v0, const Vec<3>& v1) {
+    const Vec<3> edge = v1 - v0;
+    const Vec<3> off = p - along(v0, v1, 0.5);
+    constexpr double kReach = 2;
+    return dot(off, off) <= kReach * kReach * dot(edge, edge);
+  }
+
+  // Along the edge the quadric is a parabola of t.
+  static Vec<3> on_segment(const Quadric<3>& quadric, const Vec<3>& v0, const Vec<3>& v1) {
+    const double f0 = quadric.at(v0);
+    const double f1 = quadric.at(v1);
+    const double middle = quadric.at(along(v0, v1, 0.5));
+    const double curvature = 2 * (f0 + f1 - 2 * middle);
+    const double t = curvature > 0 ? std::clamp((3 * f0 + f1 - 4 * middle) / (2 * curvature), 0.0, 1.0) : 0.5;
+    return along(v0, v1, t);
+  }
+
+  // ---- steps 5 and 6: candidates by cost, and one collapse
+
+  void push(std::int32_t h) {
+    const Collapse collapse = best(h);
+    // Of both: which of them is the larger may have changed.
+    ++version_[at(h)];
+    if (mesh_.twin[at(h)] != kNone) ++version_[at(mesh_.twin[at(h)])];
+    is_refused_[at(h)] = 0;
+    if (collapse.cost < kInfinity) queue_.push({static_cast<float>(collapse.cost), h, version_[at(h)]});
+  }
+
+  std::int32_t edge_of(std::int32_t h) const { return std::max(h, mesh_.twin[at(h)]); }
+
+  void try_collapse(std::int32_t h) {
+    const Collapse collapse = best(h);
+    if (!is_topologically_legal(h)) {
+      ++report_.refused_topology;
+      is_refused_[at(h)] = 1;
+      return;
+    }
+    if (options_.half_space && !is_inside_half_spaces(star_, collapse.position)) {
+      ++report_.refused_half_space;
+      is_refused_[at(h)] = 1;
+      return;
+    }
+    apply(h, collapse);
+  }
+
+  // Link condition; lines are not folded onto each other, and each wedge of the vertex that goes has a partner.
+  // Gathers the sides of the star.
+  bool is_topologically_legal(std::int32_t h) {
+    star_.clear();
+    ++mark_now_;
+    const std::int32_t v0 = mesh_.origin[at(h)];
+    const std::int32_t v1 = mesh_.destination(h);
+    const std::int32_t last0 = add_sides(v0, v1, [&](std::int32_t neighbour) { mark_[at(neighbour)] = mark_now_; });
+    mark_[at(last0)] = mark_now_;
+    int common = 0;
+    const auto count = [&](std::int32_t neighbour) { common += mark_[at(neighbour)] == mark_now_ ? 1 : 0; };
+    const std::int32_t last1 = add_sides(v1, v0, count);
+    if (mesh_.is_border_vertex(v1)) count(last1);
+    if (common != (mesh_.is_border_edge(h) ? 1 : 2) || star_.empty() || star_.size() > kMaxStar) return false;
+    const std::int32_t g = mesh_.twin[at(h)];
+    return keeps_lines(h) && (g == kNone || keeps_lines(g)) && has_partners(h) && keeps_volume(h);
+  }
+
+  template <class F>
+  std::int32_t add_sides(std::int32_t v, std::int32_t other, F&& f) {
+    std::int32_t last = kNone;
+    for_each_out(mesh_, v, [&](std::int32_t g) {
+      const std::int32_t a = mesh_.destination(g);
+      last = mesh_.origin[at(Halfedges::previous(g))];
+      f(a);
+      if (a != other && last != other) star_.push_back({mesh_.position[at(a)], mesh_.position[at(last)]});
+    });
+    return last;
+  }
+
+  // The other two sides of the triangle become one edge: not both a border or a line, and the apex keeps a
+  // triangle.
+  bool keeps_lines(std::int32_t h) const {
+    return !mesh_.is_feature[at(Halfedges::next(h))] || !mesh_.is_feature[at(Halfedges::previous(h))];
+  }
+
+  // A tetrahedron would fold flat.
+  bool keeps_volume(std::int32_t h) const {
+    return mesh_.is_border_edge(h) || mesh_.is_border_vertex(mesh_.origin[at(h)]) ||
+           mesh_.is_border_vertex(mesh_.destination(h)) || star_.size() > 2;
+  }
+
+  bool has_partners(std::int32_t h) {
+    const int kept_end = fixed_end(h) == 1 ? 1 : 0;
+    const std::int32_t gone = kept_end == 0 ? mesh_.destination(h) : mesh_.origin[at(h)];
+    const std::span<const WedgePair> pairs = wedge_pairs(h);
+    bool all = true;
+    for_each_out(mesh_, gone, [&](std::int32_t g) {
+      const std::int32_t w = mesh_.wedge[at(g)];
+      all = all && std::any_of(pairs.begin(), pairs.end(),
+                               [&](const WedgePair& p) { return (kept_end == 0 ? p.w1 : p.w0) == w; });
+    });
+    return all;
+  }
+
+  void apply(std::int32_t h, const Collapse& collapse) {
+    ++report_.collapses;
+    report_.last_cost = std::max(report_.last_cost, mean_squared_distance(h));
+    const std::int32_t v0 = mesh_.origin[at(h)];
+    const std::int32_t v1 = mesh_.destination(h);
+    const int end = fixed_end(h);
+    const std::int32_t kept = end == 1 ? v1 : v0;
+    const std::int32_t gone = end == 1 ? v0 : v1;
+    move_wedges(h, collapse, end);
+    carry_feature(h);
+    if (mesh_.twin[at(h)] != kNone) carry_feature(mesh_.twin[at(h)]);
+    n_triangles_ -= mesh_.is_border_edge(h) ? 1 : 2;
+    collapse_edge(mesh_, h, kept);
+    mesh_.position[at(kept)] = collapse.position;
+    geometry_[at(kept)] += geometry_[at(gone)];
+    update_around(kept);
+  }
+
+  // The wedges of the end that goes become those of the end that stays, with the attributes of the new vertex.
+  void move_wedges(std::int32_t h, const Collapse& collapse, int end) {
+    const std::int32_t gone = end == 1 ? mesh_.origin[at(h)] : mesh_.destination(h);
+    const int stays = options_.placement == Placement::kSubset && end < 0 ? (collapse.t < 0.5 ? 0 : 1) : end;
+    for (const WedgePair& pair : wedge_pairs(h)) {
+      const std::int32_t kept_wedge = end == 1 ? pair.w1 : pair.w0;
+      const std::int32_t gone_wedge = end == 1 ? pair.w0 : pair.w1;
+      for (AttributeField& field : attributes_.fields) {
+        field.value[at(kept_wedge)] = value_at(field, pair, collapse.t, stays);
+        if (gone_wedge != kept_wedge) field.quadric[at(kept_wedge)] += field.quadric[at(gone_wedge)];
+      }
+      for (ScalarField& scalar : attributes_.scalars) {
+        const double s0 = scalar.value[at(pair.w0)];
+        const double t = stays < 0 ? collapse.t : stays;
+        scalar.value[at(kept_wedge)] = s0 + t * (scalar.value[at(pair.w1)] - s0);
+      }
+      for_each_out(mesh_, gone, [&](std::int32_t g) {
+        if (mesh_.wedge[at(g)] == gone_wedge) mesh_.wedge[at(g)] = kept_wedge;
+      });
+    }
+  }
+
+  // The two other sides of the triangle of h become one edge, a line when one of them was.
+  void carry_feature(std::int32_t h) {
+    const std::int32_t a = mesh_.twin[at(Halfedges::next(h))];
+    const std::int32_t b = mesh_.twin[at(Halfedges::previous(h))];
+    const std::uint8_t is_feature =
+        mesh_.is_feature[at(Halfedges::next(h))] | mesh_.is_feature[at(Halfedges::previous(h))];
+    for (const std::int32_t side : {a, b}) {
+      if (side != kNone) mesh_.is_feature[at(side)] = is_feature;
+    }
+  }
+
+  // Edges of the new vertex cost anew; around it, what was refused may be legal now.
+  void update_around(std::int32_t kept) {
+    neighbours_.clear();
+    for_each_edge(kept, [&](std::int32_t h) {
+      push(edge_of(h));
+      neighbours_.push_back(mesh_.origin[at(h)] == kept ? mesh_.destination(h) : mesh_.origin[at(h)]);
+    });
+    for (const std::int32_t v : neighbours_) {
+      for_each_edge(v, [&](std::int32_t h) {
+        if (is_refused_[at(edge_of(h))]) push(edge_of(h));
+      });
+    }
+  }
+
+  template <class F>
+  void for_each_edge(std::int32_t v, F&& f) const {
+    std::int32_t last = kNone;
+    for_each_out(mesh_, v, [&](std::int32_t h) {
+      f(h);
+      last = h;
+    });
+    if (mesh_.turn(last) == kNone) f(Halfedges::previous(last));
+  }
+
+  // Of the new vertex from the planes that it stands for, in square units of the input.
+  double mean_squared_distance(std::int32_t h) {
+    using Q = Quadric<3>;
+    Q quadric = geometry_[at(mesh_.origin[at(h)])];
+    quadric += geometry_[at(mesh_.destination(h))];
+    const double weight = quadric.q[Q::a(0, 0)] + quadric.q[Q::a(1, 1)] + quadric.q[Q::a(2, 2)];
+    const double error = std::max(0.0, quadric.at(best(h).position));
+    return weight > 0 ? error / weight * mesh_.extent * mesh_.extent : 0;
+  }
+
+  SurfaceMesh& mesh_;
+  SurfaceAttributes& attributes_;
+  const SimplifySurfaceOptions& options_;
+  SimplifySurfaceReport& report_;
+  std::vector<Quadric<3>> geometry_;      // by vertex
+  std::vector<std::uint32_t> version_;    // by the larger halfedge of an edge
+  std::vector<std::uint8_t> is_refused_;  // by the larger halfedge of an edge
+  std::vector<std::uint32_t> mark_;
+  std::uint32_t mark_now_ = 0;
+  std::size_t n_triangles_;
+  std::priority_queue<Entry> queue_;
+  std::vector<LinkSide> star_;
+  std::vector<std::int32_t> neighbours_;
+  std::array<WedgePair, 2> pairs_{};
+};
+
+Surface surface_of(const SurfaceMesh& mesh, const SurfaceAttributes& attributes, const Surface& input) {
+  Surface result;
+  std::vector<std::int32_t> name(mesh.original_vertex.size(), kNone);
+  std::vector<std::int32_t> wedges;
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
+    if (mesh.origin[at(h)] == kNone) continue;
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const std::int32_t w = mesh.wedge[at(h + k)];
+      if (name[at(w)] == kNone) {
+        name[at(w)] = static_cast<std::int32_t>(wedges.size());
+        wedges.push_back(w);
+        const Vec<3>& p = mesh.position[at(mesh.origin[at(h + k)])];
+        result.position.push_back({p[0] * mesh.extent + mesh.middle[0], p[1] * mesh.extent + mesh.middle[1],
+                                   p[2] * mesh.extent + mesh.middle[2]});
+      }
+      triangle[at(k)] = static_cast<std::uint32_t>(name[at(w)]);
+    }
+    result.triangles.push_back(triangle);
+  }
+  auto field = attributes.fields.begin();
+  auto scalar = attributes.scalars.begin();
+  for (const SurfaceAttribute& attribute : input.attributes) {
+    SurfaceAttribute out{attribute.kind, attribute.name, {}};
+    for (const std::int32_t w : wedges) {
+      if (attribute.kind == AttributeKind::kScalar) {
+        out.values.push_back(static_cast<float>(scalar->value[at(w)]));
+      } else {
+        for (const double x : field->value[at(w)]) out.values.push_back(static_cast<float>(x));
+      }
+    }
+    attribute.kind == AttributeKind::kScalar ? static_cast<void>(++scalar) : static_cast<void>(++field);
+    result.attributes.push_back(std::move(out));
+  }
+  return result;
+}
+
+double target_of(const SimplifySurfaceOptions& options, std::size_t n_triangles) {
+  double target = 0;
+  if (options.triangles) target = std::max(target, *options.triangles);
+  if (options.ratio) target = std::max(target, *options.ratio * static_cast<double>(n_triangles));
+  return target;
+}
+
+}  // namespace
+
+Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& options,
+                         SimplifySurfaceReport& report) {
+  report = {};
+  report.input_vertices = surface.position.size();
+  report.input_triangles = surface.triangles.size();
+  SurfaceMesh mesh = surface_mesh_of(surface, report.defects);
+  mark_features(mesh, options, report);
+  SurfaceAttributes attributes = attributes_of(mesh, surface, options.area_weights);
+  SurfaceSimplifier(mesh, attributes, options, report).run(target_of(options, surface.triangles.size()));
+  return surface_of(mesh, attributes, surface);
+}
+
+}  // namespace tinsmith

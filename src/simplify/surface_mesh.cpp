@@ -1,0 +1,180 @@
+#include "simplify/surface_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesh/surface_definition.hpp"
+
+namespace tinsmith {
+
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// Representatives of vertices at bit-identical places: the first of each place.
+std::vector<std::uint32_t> first_at_place(const Surface& surface) {
+  std::vector<std::uint32_t> order(surface.position.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t u, std::uint32_t v) {
+    return surface.position[u] != surface.position[v] ? surface.position[u] < surface.position[v] : u < v;
+  });
+  std::vector<std::uint32_t> first(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool is_same = i > 0 && surface.position[order[i]] == surface.position[order[i - 1]];
+    first[order[i]] = is_same ? first[order[i - 1]] : order[i];
+  }
+  return first;
+}
+
+// The same triangles over one vertex for each place. Empty when that is no manifold with the same triangles: two
+// sheets that lie on each other, for example.
+ManifoldSurface welded(const ManifoldSurface& pieces) {
+  const std::vector<std::uint32_t> first = first_at_place(pieces.surface);
+  Surface surface;
+  surface.position = pieces.surface.position;
+  for (const auto& [a, b, c] : pieces.surface.triangles)
+    surface.triangles.push_back({first[a], first[b], first[c]});
+  SurfaceDefects defects;
+  ManifoldSurface whole = manifold_of(surface, defects);
+  const bool has_lost = defects.duplicated_triangles + defects.flipped_triangles > 0 ||
+                        whole.surface.triangles.size() != pieces.surface.triangles.size();
+  if (has_lost) return {};
+  for (std::size_t v = 0; v < whole.is_locked.size(); ++v)
+    whole.is_locked[v] = whole.is_locked[v] || pieces.is_locked[whole.original_vertex[v]];
+  return whole;
+}
+
+// Where pieces meet without being welded they must not part.
+void lock_coincident(ManifoldSurface& pieces) {
+  const std::vector<std::uint32_t> first = first_at_place(pieces.surface);
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    if (first[v] != v) pieces.is_locked[v] = pieces.is_locked[first[v]] = 1;
+  }
+}
+
+void scale(SurfaceMesh& mesh, const std::vector<std::array<double, 3>>& positions) {
+  if (positions.empty()) return;
+  Vec<3> low = positions.front();
+  Vec<3> high = low;
+  for (const auto& p : positions) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  mesh.extent = extent > 0 ? extent : 1;
+  for (std::size_t i = 0; i < 3; ++i) mesh.middle[i] = low[i] + (high[i] - low[i]) / 2;
+  mesh.position.reserve(positions.size());
+  for (const auto& p : positions) {
+    Vec<3> q = p - mesh.middle;
+    for (double& x : q) x /= mesh.extent;
+    mesh.position.push_back(q);
+  }
+}
+
+// Every vertex keeps one of its wedges.
+void unite_wedges(SurfaceMesh& mesh) {
+  for (std::size_t h = 0; h < mesh.wedge.size(); ++h) mesh.wedge[h] = mesh.wedge[at(mesh.out[at(mesh.origin[h])])];
+}
+
+bool is_seam(const SurfaceMesh& mesh, std::int32_t h) {
+  const std::int32_t g = mesh.twin[at(h)];
+  return mesh.wedge[at(h)] != mesh.wedge[at(Halfedges::next(g))] ||
+         mesh.wedge[at(Halfedges::next(h))] != mesh.wedge[at(g)];
+}
+
+Vec<3> normal_of(const SurfaceMesh& mesh, std::int32_t h) {
+  const Vec<3>& a = mesh.position[at(mesh.origin[at(h)])];
+  const Vec<3> ab = mesh.position[at(mesh.destination(h))] - a;
+  return cross(ab, mesh.position[at(mesh.origin[at(Halfedges::previous(h))])] - a);
+}
+
+bool is_crease(const SurfaceMesh& mesh, std::int32_t h, double least_cosine) {
+  const Vec<3> n0 = normal_of(mesh, h);
+  const Vec<3> n1 = normal_of(mesh, mesh.twin[at(h)]);
+  return dot(n0, n1) < least_cosine * std::sqrt(dot(n0, n0) * dot(n1, n1));
+}
+
+using VertexPair = std::array<std::uint32_t, 2>;
+VertexPair ordered(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+bool is_listed(const SurfaceMesh& mesh, std::int32_t h, const std::vector<VertexPair>& list) {
+  const auto original = [&](std::int32_t e) { return mesh.original_vertex[at(mesh.wedge[at(e)])]; };
+  const std::int32_t g = mesh.twin[at(h)];
+  return std::binary_search(list.begin(), list.end(), ordered(original(h), original(Halfedges::next(h)))) ||
+         std::binary_search(list.begin(), list.end(), ordered(original(g), original(Halfedges::next(g))));
+}
+
+// Two features that go on in nearly one direction are a line; a sharper turn is a corner.
+constexpr double kStraightCosine = 0.5;  // 60 degrees
+
+SurfaceVertexKind kind_of(const SurfaceMesh& mesh, std::int32_t v, const std::vector<std::int32_t>& ends) {
+  if (ends.empty()) return SurfaceVertexKind::kInterior;
+  if (ends.size() != 2) return SurfaceVertexKind::kCorner;
+  const Vec<3> in = mesh.position[at(v)] - mesh.position[at(ends[0])];
+  const Vec<3> out = mesh.position[at(ends[1])] - mesh.position[at(v)];
+  const bool is_straight = dot(in, out) > kStraightCosine * std::sqrt(dot(in, in) * dot(out, out));
+  return is_straight ? SurfaceVertexKind::kFeature : SurfaceVertexKind::kCorner;
+}
+
+}  // namespace
+
+SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects) {
+  ManifoldSurface pieces = manifold_of(surface, defects);
+  ManifoldSurface whole = welded(pieces);
+  if (whole.surface.triangles.empty()) {
+    lock_coincident(pieces);
+    whole = pieces;
+  }
+  SurfaceMesh mesh;
+  scale(mesh, whole.surface.position);
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  triangles.reserve(whole.surface.triangles.size());
+  for (const auto& [a, b, c] : whole.surface.triangles)
+    triangles.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c)});
+  connect(mesh, triangles, mesh.position.size());
+  mesh.wedge.reserve(mesh.origin.size());
+  for (const auto& t : pieces.surface.triangles) {
+    for (const std::uint32_t v : t) mesh.wedge.push_back(static_cast<std::int32_t>(v));
+  }
+  mesh.original_vertex = pieces.original_vertex;
+  mesh.kind.assign(mesh.position.size(), SurfaceVertexKind::kInterior);
+  for (std::size_t v = 0; v < mesh.kind.size(); ++v) {
+    if (whole.is_locked[v]) mesh.kind[v] = SurfaceVertexKind::kLocked;
+  }
+  return mesh;
+}
+
+void mark_features(SurfaceMesh& mesh, const SimplifySurfaceOptions& options, SimplifySurfaceReport& report) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const double least_cosine = options.crease ? std::cos(*options.crease * kDegree) : -2;
+  std::vector<VertexPair> list;
+  for (const auto& [a, b] : options.feature_edges) list.push_back(ordered(a, b));
+  std::sort(list.begin(), list.end());
+  if (!options.keep_seams) unite_wedges(mesh);
+  mesh.is_feature.assign(mesh.origin.size(), 0);
+  std::vector<std::vector<std::int32_t>> ends(mesh.position.size());
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    const std::int32_t g = mesh.twin[at(h)];
+    if (g != kNone && g < h) continue;
+    if (g == kNone) {
+      ++report.border_edges;
+    } else {
+      if (!is_seam(mesh, h) && !is_crease(mesh, h, least_cosine) && (list.empty() || !is_listed(mesh, h, list)))
+        continue;
+      ++report.feature_edges;
+      mesh.is_feature[at(g)] = 1;
+    }
+    mesh.is_feature[at(h)] = 1;
+    ends[at(mesh.origin[at(h)])].push_back(mesh.destination(h));
+    ends[at(mesh.destination(h))].push_back(mesh.origin[at(h)]);
+  }
+  for (std::size_t v = 0; v < ends.size(); ++v) {
+    if (mesh.kind[v] != SurfaceVertexKind::kLocked)
+      mesh.kind[v] = kind_of(mesh, static_cast<std::int32_t>(v), ends[v]);
+  }
+}
+
+}  // namespace tinsmith

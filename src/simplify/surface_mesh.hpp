@@ -1,0 +1,48 @@
+#pragma once
+// A surface as its simplification sees it: topology of places, and attributes of wedges.
+//
+// A wedge is what the corners around a vertex share that have the same attributes (Hoppe 1999): one on smooth
+// ground, two where a seam of the attributes passes. In files each wedge is a vertex of its own.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/quadric.hpp"
+#include "mesh/halfedges.hpp"
+#include "tinsmith/simplify.hpp"
+#include "tinsmith/surface.hpp"
+
+namespace tinsmith {
+
+/// What a vertex of a surface may do, by rising rank: of an edge's ends the higher stays where it is.
+enum class SurfaceVertexKind : std::uint8_t {
+  kInterior,
+  kFeature,  // on one feature line or border: collapses along it only
+  kCorner,   // where lines meet, end or turn sharply: stays
+  kLocked,   // where the input is no surface: stays
+};
+
+struct SurfaceMesh : Halfedges {
+  // by vertex
+  std::vector<Vec<3>> position;  // about the middle, in units of the largest extent
+  std::vector<SurfaceVertexKind> kind;
+  // by halfedge
+  std::vector<std::uint8_t> is_feature;  // feature lines and borders, on both halfedges
+  std::vector<std::int32_t> wedge;       // of the corner at its origin
+  // by wedge
+  std::vector<std::uint32_t> original_vertex;  // the input's
+
+  Vec<3> middle{};
+  double extent = 1;
+};
+
+/// The surface welded by place, so far as that leaves it a manifold with borders, with its defects mended and
+/// counted.
+SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects);
+
+/// Marks borders, creases, seams of the attributes and the given edges (vertices of the input), and from them the
+/// kinds of all vertices. Counts them in the report.
+void mark_features(SurfaceMesh& mesh, const SimplifySurfaceOptions& options, SimplifySurfaceReport& report);
+
+}  // namespace tinsmith

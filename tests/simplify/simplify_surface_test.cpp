@@ -1,0 +1,260 @@
+// Simplification of surfaces in space: what it keeps, on closed, open, creased, noisy and coloured ones.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "support/surface_measures.hpp"
+#include "support/surface_shapes.hpp"
+#include "tinsmith/simplify.hpp"
+
+namespace tinsmith {
+namespace {
+
+using namespace test;
+
+struct Simplified {
+  Surface surface;
+  SimplifySurfaceReport report;
+};
+
+Simplified simplified(const Surface& surface, SimplifySurfaceOptions options, double ratio) {
+  Simplified result;
+  options.ratio = ratio;
+  result.surface = simplify_surface(surface, options, result.report);
+  return result;
+}
+
+struct Shape {
+  const char* name;
+  Surface surface;
+};
+std::vector<Shape> shapes() {
+  return {{"sphere", sphere(24)},
+          {"torus", torus(60, 30)},
+          {"cube", cube_with_creases(16)},
+          {"sheet", open_sheet(40)},
+          {"scan", scan(24)}};
+}
+
+TEST(SimplifySurface, ReachesTheRatioAndKeepsTopologyAndSides) {
+  for (const auto& [name, surface] : shapes()) {
+    for (const Placement placement : {Placement::kOptimal, Placement::kSegment, Placement::kSubset}) {
+      for (const double ratio : {0.5, 0.2, 0.05}) {
+        SCOPED_TRACE(testing::Message() << name << ", placement " << static_cast<int>(placement) << ", " << ratio);
+        SimplifySurfaceOptions options;
+        options.placement = placement;
+        const Surface result = simplified(surface, options, ratio).surface;
+        EXPECT_LE(static_cast<double>(result.triangles.size()),
+                  ratio * static_cast<double>(surface.triangles.size()));
+        EXPECT_GE(static_cast<double>(result.triangles.size()),
+                  ratio * static_cast<double>(surface.triangles.size()) - 2);
+        EXPECT_TRUE(is_manifold(result));
+        EXPECT_EQ(count_borders(result), count_borders(surface));
+        EXPECT_EQ(genus(result), genus(surface));
+        EXPECT_LT(distance(result, surface, 4'000).max(), 0.06);
+      }
+    }
+  }
+}
+
+TEST(SimplifySurface, GivesTheSameForTheSameInput) {
+  const Surface surface = with_checker_colour(scan(16), 4);
+  const Surface first = simplified(surface, {}, 0.1).surface;
+  const Surface second = simplified(surface, {}, 0.1).surface;
+  EXPECT_EQ(first.position, second.position);
+  EXPECT_EQ(first.triangles, second.triangles);
+  EXPECT_EQ(first.attributes[0].values, second.attributes[0].values);
+}
+
+// The cube's planes are exact: what is left has no error, and with creases marked its twelve edges stay.
+TEST(SimplifySurface, KeepsACubeExactly) {
+  const Surface cube = cube_with_creases(12);
+  SimplifySurfaceOptions options;
+  options.crease = 45;
+  const Simplified result = simplified(cube, options, 0.01);
+  EXPECT_EQ(result.report.feature_edges, 12U * 12);
+  EXPECT_LT(distance(result.surface, cube, 4'000).max(), 1e-12);
+  std::set<Point3> corners;
+  for (const Point3& p : result.surface.position) {
+    if (std::all_of(p.begin(), p.end(), [](double x) { return std::abs(std::abs(x) - 1) < 1e-12; }))
+      corners.insert(p);
+  }
+  EXPECT_EQ(corners.size(), 8U);
+}
+
+TEST(SimplifySurface, EndsWhenNothingCanBeCollapsed) {
+  SimplifySurfaceReport report;
+  const Surface result = simplify_surface(sphere(6), {}, report);
+  EXPECT_GE(result.triangles.size(), 4U);
+  EXPECT_LE(result.triangles.size(), 24U);
+  EXPECT_TRUE(is_closed_manifold(result));
+}
+
+TEST(SimplifySurface, HoldsTheLargestCost) {
+  const Surface surface = scan(24);
+  SimplifySurfaceOptions options;
+  options.max_cost = 1e-5;
+  SimplifySurfaceReport report;
+  const Surface result = simplify_surface(surface, options, report);
+  EXPECT_LT(result.triangles.size(), surface.triangles.size() * 9 / 10);
+  EXPECT_LE(report.last_cost, 1e-5);
+  options.max_cost = 1e-4;
+  EXPECT_LT(simplify_surface(surface, options, report).triangles.size(), result.triangles.size());
+}
+
+TEST(SimplifySurface, HalfSpaceTestPreventsTurnedTriangles) {
+  std::size_t with = 0;
+  std::size_t without = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Surface surface = scan(40, seed);
+    SimplifySurfaceOptions options;
+    with += normal_turn(simplified(surface, options, 0.3).surface, surface).n_flipped;
+    options.half_space = false;
+    without += normal_turn(simplified(surface, options, 0.3).surface, surface).n_flipped;
+  }
+  EXPECT_LE(with, 1U);
+  EXPECT_GT(without, 3 * with + 3);
+}
+
+TEST(SimplifySurface, SubsetPlacementKeepsVerticesWithTheirAttributes) {
+  const Surface surface = with_gradient_colour(scan(20));
+  SimplifySurfaceOptions options;
+  options.placement = Placement::kSubset;
+  const Surface result = simplified(surface, options, 0.1).surface;
+  using Vertex = std::pair<Point3, std::array<float, 3>>;
+  const auto vertices = [](const Surface& s) {
+    std::vector<Vertex> all;
+    const std::vector<float>& colour = s.find(AttributeKind::kColour)->values;
+    for (std::size_t v = 0; v < s.position.size(); ++v)
+      all.push_back({s.position[v], {colour[3 * v], colour[3 * v + 1], colour[3 * v + 2]}});
+    return all;
+  };
+  std::vector<Vertex> given = vertices(surface);
+  for (const auto& [position, colour] : vertices(result)) {
+    const bool is_given =
+        std::any_of(given.begin(), given.end(), [&, p = position, c = colour](const Vertex& other) {
+          return norm(minus(other.first, p)) < 1e-12 && other.second == c;
+        });
+    EXPECT_TRUE(is_given);
+  }
+}
+
+TEST(SimplifySurface, KeepsColoursInRangeAndNormalsAtUnitLength) {
+  const Surface surface = with_normals(with_checker_colour(scan(24), 5));
+  const Surface result = simplified(surface, {}, 0.1).surface;
+  ASSERT_NE(result.find(AttributeKind::kColour), nullptr);
+  ASSERT_NE(result.find(AttributeKind::kNormal), nullptr);
+  for (const float x : result.find(AttributeKind::kColour)->values) EXPECT_TRUE(x >= 0 && x <= 1);
+  const std::vector<float>& normals = result.find(AttributeKind::kNormal)->values;
+  for (std::size_t v = 0; v < result.position.size(); ++v)
+    EXPECT_NEAR(std::hypot(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]), 1, 1e-5);
+}
+
+// One colour everywhere costs nothing and stays.
+TEST(SimplifySurface, IsNotDisturbedByAConstantColour) {
+  Surface surface = scan(20);
+  const Surface plain = simplified(surface, {}, 0.2).surface;
+  surface.attributes.push_back(
+      {AttributeKind::kColour, "", std::vector<float>(3 * surface.position.size(), 0.25F)});
+  const Surface coloured = simplified(surface, {}, 0.2).surface;
+  EXPECT_EQ(plain.position, coloured.position);
+  EXPECT_EQ(plain.triangles, coloured.triangles);
+  for (const float x : coloured.attributes[0].values) EXPECT_FLOAT_EQ(x, 0.25F);
+}
+
+// Every face of the cube has its own vertices and normals, as in most files: the seams are lines, and nothing
+// cracks.
+Surface cube_with_face_normals(int n) {
+  const Surface cube = cube_with_creases(n);
+  Surface result;
+  SurfaceAttribute normals{AttributeKind::kNormal, "", {}};
+  std::map<std::pair<std::uint32_t, Point3>, std::uint32_t> number_of;
+  for (const auto& t : cube.triangles) {
+    const Point3 n2 = doubled_area_normal(cube, t);
+    Point3 normal = times(n2, 1 / norm(n2));
+    for (double& x : normal) x = std::round(x);
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [it, is_new] =
+          number_of.try_emplace({t[k], normal}, static_cast<std::uint32_t>(result.position.size()));
+      if (is_new) {
+        result.position.push_back(cube.position[t[k]]);
+        for (const double x : normal) normals.values.push_back(static_cast<float>(x));
+      }
+      triangle[k] = it->second;
+    }
+    result.triangles.push_back(triangle);
+  }
+  result.attributes.push_back(std::move(normals));
+  return result;
+}
+
+TEST(SimplifySurface, SimplifiesSeamsOfAttributesInStepWithoutCracks) {
+  const Surface cube = cube_with_face_normals(12);
+  const Simplified result = simplified(cube, {}, 0.02);
+  EXPECT_EQ(result.report.border_edges, 0U);
+  EXPECT_EQ(result.report.feature_edges, 12U * 12);
+  EXPECT_LE(result.surface.triangles.size(), cube.triangles.size() / 50);
+  EXPECT_TRUE(is_closed_manifold(welded(result.surface)));
+  EXPECT_LT(distance(result.surface, cube, 4'000).max(), 1e-12);
+  // Every triangle still has its face's normal at all corners.
+  const std::vector<float>& normals = result.surface.find(AttributeKind::kNormal)->values;
+  for (const auto& t : result.surface.triangles) {
+    const Point3 n = doubled_area_normal(result.surface, t);
+    for (const std::uint32_t v : t) {
+      const Point3 m{normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]};
+      EXPECT_GT(dot(n, m), 0.999 * norm(n));
+    }
+  }
+}
+
+TEST(SimplifySurface, CollapsesBordersAlongThemselves) {
+  const Surface sheet = open_sheet(30);
+  const Simplified result = simplified(sheet, {}, 0.05);
+  EXPECT_EQ(count_borders(result.surface), 1U);
+  EXPECT_LT(result.surface.position.size(), sheet.position.size() / 10);
+  EXPECT_EQ(result.report.border_edges, 4U * 30);
+}
+
+TEST(SimplifySurface, KeepsEdgesGivenByTheCaller) {
+  Surface sheet = open_sheet(20);
+  for (Point3& p : sheet.position) p[2] = 0;
+  // The row through the middle, which a plane would lose.
+  SimplifySurfaceOptions options;
+  std::vector<std::uint32_t> row;
+  for (std::uint32_t v = 0; v < sheet.position.size(); ++v) {
+    if (std::abs(sheet.position[v][1] - sheet.position[sheet.position.size() / 2][1]) < 1e-9) row.push_back(v);
+  }
+  std::sort(row.begin(), row.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return sheet.position[a] < sheet.position[b]; });
+  for (std::size_t i = 1; i < row.size(); ++i) options.feature_edges.push_back({row[i - 1], row[i]});
+  ASSERT_GT(row.size(), 10U);
+  const Simplified result = simplified(sheet, options, 0.02);
+  EXPECT_GE(result.report.feature_edges, row.size() - 1);
+  const double y = sheet.position[row[0]][1];
+  std::size_t n_on_row = 0;
+  for (const Point3& p : result.surface.position) n_on_row += std::abs(p[1] - y) < 1e-9 ? 1 : 0;
+  EXPECT_GE(n_on_row, 2U);
+}
+
+TEST(SimplifySurface, LocksWhatIsNoSurface) {
+  Surface book;  // three pages at one edge
+  book.position = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
+  book.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  const Simplified result = simplified(book, {}, 0.01);
+  EXPECT_EQ(result.report.defects.non_manifold_edges, 1U);
+  EXPECT_EQ(result.surface.triangles.size(), 3U);
+}
+
+TEST(SimplifySurface, OfNothingIsNothing) {
+  SimplifySurfaceReport report;
+  EXPECT_TRUE(simplify_surface({}, {}, report).triangles.empty());
+}
+
+}  // namespace
+}  // namespace tinsmith
