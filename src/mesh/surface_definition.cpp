@@ -47,12 +47,16 @@ void check_vertices(const Surface& s) {
   }
 }
 
-void check_triangles(const Surface& s) {
-  constexpr std::size_t kLargest =
-      std::numeric_limits<std::uint32_t>::max() / 3;  // corners are numbered in 32 bits
-  if (s.triangles.size() > kLargest)
+/// Vertices and corners are numbered in 32 bits.
+void check_counts(const Surface& s) {
+  constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max() / 3;
+  if (s.position.size() > kLargest || s.triangles.size() > kLargest)
     throw ResourceError(
-        fmt::format("surface: {} triangles are more than {}; cut it in parts", s.triangles.size(), kLargest));
+        fmt::format("surface: {} vertices and {} triangles, where {} of each are the most; cut it in parts",
+                    s.position.size(), s.triangles.size(), kLargest));
+}
+
+void check_triangles(const Surface& s) {
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
     for (const std::uint32_t v : s.triangles[t])
       if (v >= s.position.size())
@@ -367,6 +371,7 @@ Surface gather(const Surface& original, Renumbering& renumbering) {
 // fan is wound one way, and stay joined. More than two can't, as a fan has two ends. An edge that can't be oriented
 // always parts: around a vertex inside the surface there is an even number of them.
 ManifoldSurface manifold_of(const Surface& surface, SurfaceDefects& defects) {
+  check_counts(surface);
   check_vertices(surface);
   check_triangles(surface);
   defects = {};

@@ -21,7 +21,8 @@ struct ManifoldSurface {
 /// Counts and mends: removes what is there twice, turns over what is against its neighbours, removes unreferenced
 /// vertices, cuts the rest apart. Triangles keep their order. The same vertex numbers mean the same vertex only;
 /// nothing is welded by place. Throws InputError for numbers of vertices that don't exist, positions and attributes
-/// that aren't finite, and attributes of another length; ResourceError for more than 2^32 / 3 triangles.
+/// that aren't finite, and attributes of another length; ResourceError for more than 2^32 / 3 vertices or
+/// triangles.
 ManifoldSurface manifold_of(const Surface& surface, SurfaceDefects& defects);
 
 }  // namespace tinsmith
