@@ -18,6 +18,7 @@ namespace tinsmith {
 enum class QuadricForm {
   kSeparate,  // one each, in three dimensions: 20 coefficients with one attribute (the paper, eq. 25-28)
   kCombined,  // one in six dimensions: 28 coefficients (Garland and Heckbert 1998)
+  kGradient,  // attributes as linear functions of the place: 23 coefficients (Hoppe 1999)
 };
 
 /// When to stop: at the first that is reached; without any, when no edge can be collapsed.

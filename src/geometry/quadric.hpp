@@ -144,13 +144,12 @@ bool solve(const Quadric<N>& quadric, const Vec<N>& r, double relative, Vec<N>& 
   return true;
 }
 
-/// The minimum of a quadric, eq. 6-10: A v = -b.
+/// The minimum of a quadric, eq. 6-10: A v = -b. False when A is nearly singular, see solve.
 template <std::size_t N>
-bool minimum(const Quadric<N>& quadric, Vec<N>& v) {
-  constexpr double kNearlySingular = 1e-3;
+bool minimum(const Quadric<N>& quadric, Vec<N>& v, double relative = 1e-3) {
   Vec<N> r;
   for (std::size_t i = 0; i < N; ++i) r[i] = -quadric.q[Quadric<N>::b(i)];
-  return solve(quadric, r, kNearlySingular, v);
+  return solve(quadric, r, relative, v);
 }
 
 }  // namespace tinsmith

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <queue>
 #include <span>
 
@@ -33,17 +34,32 @@ Vec<3> along(const Vec<3>& a, const Vec<3>& b, double t) {
 struct Collapse {
   double cost = kInfinity;  // E_g + alpha E_c
   Vec<3> position{};
-  double t = 0.5;  // where between the ends, for what is interpolated
+  double t = 0.5;  // where between the ends
+  int end = -1;    // 0 or 1: the new vertex is that end, with its attributes
 };
+
+std::unique_ptr<AttributeQuadrics> attribute_quadrics(const SurfaceMesh& mesh, const WedgeValues& all,
+                                                      const SimplifySurfaceOptions& options) {
+  switch (options.quadric) {
+    case QuadricForm::kSeparate:
+      return separate_quadrics(mesh, all, options);
+    case QuadricForm::kCombined:
+      return combined_quadrics(mesh, all, options);
+    case QuadricForm::kGradient:
+      return gradient_quadrics(mesh, all, options);
+  }
+  return nullptr;
+}
 
 class SurfaceSimplifier {
  public:
-  SurfaceSimplifier(SurfaceMesh& mesh, SurfaceAttributes& attributes, const SimplifySurfaceOptions& options,
+  SurfaceSimplifier(SurfaceMesh& mesh, WedgeValues& values, const SimplifySurfaceOptions& options,
                     SimplifySurfaceReport& report)
       : mesh_(mesh),
-        attributes_(attributes),
+        values_(values),
         options_(options),
         report_(report),
+        attributes_(values.n_components > 0 ? attribute_quadrics(mesh, values, options) : nullptr),
         geometry_(mesh.position.size()),
         version_(mesh.origin.size(), 0),
         is_refused_(mesh.origin.size(), 0),
@@ -95,12 +111,15 @@ class SurfaceSimplifier {
       for (double& x : n) x /= length;
       Quadric<3> quadric;
       quadric.add_plane(n, a, triangle_weight(mesh_, h, options_.area_weights));
-      for (std::int32_t k = 0; k < 3; ++k) geometry_[at(mesh_.origin[at(h + k)])] += quadric;
+      for (std::int32_t k = 0; k < 3 && !has_combined(); ++k) geometry_[at(mesh_.origin[at(h + k)])] += quadric;
       for (std::int32_t k = 0; k < 3; ++k) {
         if (mesh_.is_feature[at(h + k)]) add_feature_plane(h + k, n);
       }
     }
   }
+
+  // The six-dimensional quadrics hold the triangles' planes too.
+  bool has_combined() const { return attributes_ != nullptr && options_.quadric == QuadricForm::kCombined; }
 
   void add_feature_plane(std::int32_t h, const Vec<3>& n) {
     const Vec<3> edge = point(Halfedges::next(h)) - point(h);
@@ -128,10 +147,6 @@ class SurfaceSimplifier {
   }
 
   // The pairs of wedges that a collapse makes one: those of its left triangle, and of its right one if they differ.
-  struct WedgePair {
-    std::int32_t w0;
-    std::int32_t w1;
-  };
   std::span<const WedgePair> wedge_pairs(std::int32_t h) {
     pairs_[0] = {mesh_.wedge[at(h)], mesh_.wedge[at(Halfedges::next(h))]};
     const std::int32_t g = mesh_.twin[at(h)];
@@ -141,30 +156,25 @@ class SurfaceSimplifier {
     return {pairs_.data(), is_same ? std::size_t{1} : std::size_t{2}};
   }
 
-  double attribute_cost(std::int32_t h, double t, int fixed_end) {
-    if (attributes_.fields.empty() || options_.attribute_weight == 0) return 0;
+  double attribute_cost(std::int32_t h, const Collapse& collapse) {
+    if (!attributes_ || (options_.attribute_weight == 0 && !has_combined())) return 0;
     double cost = 0;
-    for (const WedgePair& pair : wedge_pairs(h)) {
-      for (const AttributeField& field : attributes_.fields) {
-        const Quadric<3> quadric = sum_of(field, pair);
-        cost += std::max(0.0, quadric.at(value_at(field, pair, t, fixed_end)));
-      }
-    }
-    return options_.attribute_weight * cost;
+    for (const WedgePair& pair : wedge_pairs(h))
+      cost += attributes_->cost(pair, collapse.position, new_values(pair, collapse));
+    return cost;
   }
 
-  static Quadric<3> sum_of(const AttributeField& field, const WedgePair& pair) {
-    Quadric<3> quadric = field.quadric[at(pair.w0)];
-    if (pair.w1 != pair.w0) quadric += field.quadric[at(pair.w1)];
-    return quadric;
-  }
-
-  // Of the new vertex: an end's own when the vertex stays there.
-  Vec<3> value_at(const AttributeField& field, const WedgePair& pair, double t, int fixed_end) const {
-    if (fixed_end == 0) return field.value[at(pair.w0)];
-    if (fixed_end == 1) return field.value[at(pair.w1)];
-    const Vec<3> between = along(field.value[at(pair.w0)], field.value[at(pair.w1)], t);
-    return best_value(sum_of(field, pair), between, field.kind);
+  // Of the new vertex: an end's own, or the best for its place.
+  std::span<const double> new_values(const WedgePair& pair, const Collapse& collapse) {
+    const std::span<const double> v0 = values_.of(pair.w0);
+    const std::span<const double> v1 = values_.of(pair.w1);
+    scratch_.resize(v0.size());
+    const double t = collapse.end >= 0 ? collapse.end : collapse.t;
+    for (std::size_t i = 0; i < v0.size(); ++i) scratch_[i] = v0[i] + t * (v1[i] - v0[i]);
+    if (collapse.end >= 0) return scratch_;
+    attributes_->find_best(pair, collapse.position, scratch_);
+    put_in_range(values_, scratch_);
+    return scratch_;
   }
 
   // 0 or 1: the end at which the new vertex has to stay; -1: none.
@@ -176,15 +186,28 @@ class SurfaceSimplifier {
   }
 
   Collapse at_end(std::int32_t h, int end, const Quadric<3>& quadric) {
-    const Vec<3>& p = mesh_.position[at(end == 0 ? mesh_.origin[at(h)] : mesh_.destination(h))];
-    return {std::max(0.0, quadric.at(p)) + attribute_cost(h, end, end), p, static_cast<double>(end)};
+    const std::int32_t v = end == 0 ? mesh_.origin[at(h)] : mesh_.destination(h);
+    Collapse collapse{0, mesh_.position[at(v)], static_cast<double>(end), end};
+    collapse.cost = std::max(0.0, quadric.at(collapse.position)) + attribute_cost(h, collapse);
+    return collapse;
   }
 
   Collapse at_place(std::int32_t h, const Vec<3>& p, const Quadric<3>& quadric) {
     const Vec<3> edge = point(Halfedges::next(h)) - point(h);
     const double squared = dot(edge, edge);
     const double t = squared > 0 ? std::clamp(dot(p - point(h), edge) / squared, 0.0, 1.0) : 0.5;
-    return {std::max(0.0, quadric.at(p)) + attribute_cost(h, t, -1), p, t};
+    Collapse collapse{0, p, t, -1};
+    collapse.cost = std::max(0.0, quadric.at(p)) + attribute_cost(h, collapse);
+    return collapse;
+  }
+
+  // Geometry and what the attributes have to say about the place.
+  Quadric<3> quadric_of_place(std::int32_t h, const Quadric<3>& geometry) {
+    Quadric<3> quadric = geometry;
+    if (attributes_) {
+      for (const WedgePair& pair : wedge_pairs(h)) attributes_->add_cost_of_place(pair, quadric);
+    }
+    return quadric;
   }
 
   Collapse best(std::int32_t h) {
@@ -195,11 +218,12 @@ class SurfaceSimplifier {
     if (fixed >= 0) return at_end(h, fixed, quadric);
     const Vec<3>& v0 = point(h);
     const Vec<3>& v1 = point(Halfedges::next(h));
-    if (options_.placement == Placement::kOptimal) {
+    if (options_.placement != Placement::kSubset) {
+      const Quadric<3> of_place = quadric_of_place(h, quadric);
       Vec<3> p;
-      if (minimum(quadric, p) && is_near(p, v0, v1)) return at_place(h, p, quadric);
+      if (options_.placement == Placement::kSegment) return at_place(h, on_segment(of_place, v0, v1), quadric);
+      if (minimum(of_place, p) && is_near(p, v0, v1)) return at_place(h, p, quadric);
     }
-    if (options_.placement == Placement::kSegment) return at_place(h, on_segment(quadric, v0, v1), quadric);
     const Collapse first = at_end(h, 0, quadric);
     const Collapse second = at_end(h, 1, quadric);
     Collapse least = second.cost < first.cost ? second : first;
@@ -332,18 +356,13 @@ class SurfaceSimplifier {
   // The wedges of the end that goes become those of the end that stays, with the attributes of the new vertex.
   void move_wedges(std::int32_t h, const Collapse& collapse, int end) {
     const std::int32_t gone = end == 1 ? mesh_.origin[at(h)] : mesh_.destination(h);
-    const int stays = options_.placement == Placement::kSubset && end < 0 ? (collapse.t < 0.5 ? 0 : 1) : end;
     for (const WedgePair& pair : wedge_pairs(h)) {
       const std::int32_t kept_wedge = end == 1 ? pair.w1 : pair.w0;
       const std::int32_t gone_wedge = end == 1 ? pair.w0 : pair.w1;
-      for (AttributeField& field : attributes_.fields) {
-        field.value[at(kept_wedge)] = value_at(field, pair, collapse.t, stays);
-        if (gone_wedge != kept_wedge) field.quadric[at(kept_wedge)] += field.quadric[at(gone_wedge)];
-      }
-      for (ScalarField& scalar : attributes_.scalars) {
-        const double s0 = scalar.value[at(pair.w0)];
-        const double t = stays < 0 ? collapse.t : stays;
-        scalar.value[at(kept_wedge)] = s0 + t * (scalar.value[at(pair.w1)] - s0);
+      if (attributes_) {
+        const std::span<const double> now = new_values(pair, collapse);
+        std::copy(now.begin(), now.end(), values_.of(kept_wedge).begin());
+        if (gone_wedge != kept_wedge) attributes_->unite(kept_wedge, gone_wedge);
       }
       for_each_out(mesh_, gone, [&](std::int32_t g) {
         if (mesh_.wedge[at(g)] == gone_wedge) mesh_.wedge[at(g)] = kept_wedge;
@@ -386,23 +405,26 @@ class SurfaceSimplifier {
     if (mesh_.turn(last) == kNone) f(Halfedges::previous(last));
   }
 
-  // Of the new vertex from the planes that it stands for, in square units of the input.
+  // Of the new vertex from the planes that it stands for, in square units of the input; attributes count where they
+  // are in one quadric with the place.
   double mean_squared_distance(std::int32_t h) {
     using Q = Quadric<3>;
     Q quadric = geometry_[at(mesh_.origin[at(h)])];
     quadric += geometry_[at(mesh_.destination(h))];
+    if (has_combined()) quadric = quadric_of_place(h, quadric);
     const double weight = quadric.q[Q::a(0, 0)] + quadric.q[Q::a(1, 1)] + quadric.q[Q::a(2, 2)];
     const double error = std::max(0.0, quadric.at(best(h).position));
     return weight > 0 ? error / weight * mesh_.extent * mesh_.extent : 0;
   }
 
   SurfaceMesh& mesh_;
-  SurfaceAttributes& attributes_;
+  WedgeValues& values_;
   const SimplifySurfaceOptions& options_;
   SimplifySurfaceReport& report_;
-  std::vector<Quadric<3>> geometry_;      // by vertex
-  std::vector<std::uint32_t> version_;    // by the larger halfedge of an edge
-  std::vector<std::uint8_t> is_refused_;  // by the larger halfedge of an edge
+  std::unique_ptr<AttributeQuadrics> attributes_;  // null when there are none
+  std::vector<Quadric<3>> geometry_;               // by vertex
+  std::vector<std::uint32_t> version_;             // by the larger halfedge of an edge
+  std::vector<std::uint8_t> is_refused_;           // by the larger halfedge of an edge
   std::vector<std::uint32_t> mark_;
   std::uint32_t mark_now_ = 0;
   std::size_t n_triangles_;
@@ -410,9 +432,10 @@ class SurfaceSimplifier {
   std::vector<LinkSide> star_;
   std::vector<std::int32_t> neighbours_;
   std::array<WedgePair, 2> pairs_{};
+  std::vector<double> scratch_;
 };
 
-Surface surface_of(const SurfaceMesh& mesh, const SurfaceAttributes& attributes, const Surface& input) {
+Surface surface_of(const SurfaceMesh& mesh, const WedgeValues& values, const Surface& input) {
   Surface result;
   std::vector<std::int32_t> name(mesh.original_vertex.size(), kNone);
   std::vector<std::int32_t> wedges;
@@ -432,18 +455,14 @@ Surface surface_of(const SurfaceMesh& mesh, const SurfaceAttributes& attributes,
     }
     result.triangles.push_back(triangle);
   }
-  auto field = attributes.fields.begin();
-  auto scalar = attributes.scalars.begin();
-  for (const SurfaceAttribute& attribute : input.attributes) {
-    SurfaceAttribute out{attribute.kind, attribute.name, {}};
+  for (std::size_t i = 0; i < values.blocks.size(); ++i) {
+    const WedgeValues::Block& block = values.blocks[i];
+    SurfaceAttribute out{block.kind, input.attributes[i].name, {}};
     for (const std::int32_t w : wedges) {
-      if (attribute.kind == AttributeKind::kScalar) {
-        out.values.push_back(static_cast<float>(scalar->value[at(w)]));
-      } else {
-        for (const double x : field->value[at(w)]) out.values.push_back(static_cast<float>(x));
-      }
+      const auto n = static_cast<std::size_t>(out.components());
+      for (const double x : values.of(w).subspan(block.offset, n))
+        out.values.push_back(static_cast<float>(block.lowest + block.range * x));
     }
-    attribute.kind == AttributeKind::kScalar ? static_cast<void>(++scalar) : static_cast<void>(++field);
     result.attributes.push_back(std::move(out));
   }
   return result;
@@ -465,9 +484,9 @@ Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& o
   report.input_triangles = surface.triangles.size();
   SurfaceMesh mesh = surface_mesh_of(surface, report.defects);
   mark_features(mesh, options, report);
-  SurfaceAttributes attributes = attributes_of(mesh, surface, options.area_weights);
-  SurfaceSimplifier(mesh, attributes, options, report).run(target_of(options, surface.triangles.size()));
-  return surface_of(mesh, attributes, surface);
+  WedgeValues values = wedge_values(mesh, surface);
+  SurfaceSimplifier(mesh, values, options, report).run(target_of(options, surface.triangles.size()));
+  return surface_of(mesh, values, surface);
 }
 
 }  // namespace tinsmith

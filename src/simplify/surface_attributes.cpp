@@ -9,33 +9,50 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// Attribute vectors closer than that are the same (eq. 28): half a step of 8 bits.
-constexpr double kSameValue = 1.0 / 512;
-
-AttributeField field_of(const SurfaceMesh& mesh, const SurfaceAttribute& attribute) {
-  AttributeField field{attribute.kind, {}, std::vector<Quadric<3>>(mesh.original_vertex.size())};
-  field.value.reserve(mesh.original_vertex.size());
-  for (const std::uint32_t v : mesh.original_vertex) {
-    const float* values = attribute.values.data() + 3 * static_cast<std::size_t>(v);
-    field.value.push_back({values[0], values[1], values[2]});
-  }
-  return field;
-}
-
-// Adds the quadric of each triangle's flat in attribute space to its three wedges: a plane, a line, or a point
-// where the three values don't span more.
-void sum_quadrics(const SurfaceMesh& mesh, AttributeField& field, bool area_weights) {
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
-    const std::array<std::int32_t, 3> wedges{mesh.wedge[at(h)], mesh.wedge[at(h + 1)], mesh.wedge[at(h + 2)]};
-    const Vec<3>& p = field.value[at(wedges[0])];
-    const auto [e1, e2] = directions_of(p, field.value[at(wedges[1])], field.value[at(wedges[2])], kSameValue);
-    Quadric<3> quadric;
-    quadric.add_flat(p, e1, e2, triangle_weight(mesh, h, area_weights));
-    for (const std::int32_t w : wedges) field.quadric[at(w)] += quadric;
-  }
+WedgeValues::Block block_of(const SurfaceAttribute& attribute, std::size_t offset) {
+  WedgeValues::Block block{attribute.kind, offset, 0, 1};
+  if (attribute.kind != AttributeKind::kScalar || attribute.values.empty()) return block;
+  const auto [lowest, highest] = std::minmax_element(attribute.values.begin(), attribute.values.end());
+  block.lowest = *lowest;
+  const double range = static_cast<double>(*highest) - *lowest;
+  if (range > 0) block.range = range;
+  return block;
 }
 
 }  // namespace
+
+WedgeValues wedge_values(const SurfaceMesh& mesh, const Surface& surface) {
+  WedgeValues all;
+  for (const SurfaceAttribute& attribute : surface.attributes) {
+    all.blocks.push_back(block_of(attribute, all.n_components));
+    all.n_components += static_cast<std::size_t>(attribute.components());
+  }
+  all.values.reserve(mesh.original_vertex.size() * all.n_components);
+  for (const std::uint32_t v : mesh.original_vertex) {
+    for (std::size_t i = 0; i < all.blocks.size(); ++i) {
+      const auto n = static_cast<std::size_t>(surface.attributes[i].components());
+      for (std::size_t k = 0; k < n; ++k)
+        all.values.push_back((surface.attributes[i].values[v * n + k] - all.blocks[i].lowest) /
+                             all.blocks[i].range);
+    }
+  }
+  return all;
+}
+
+void put_in_range(const WedgeValues& all, std::span<double> values) {
+  for (const WedgeValues::Block& block : all.blocks) {
+    if (block.kind == AttributeKind::kScalar) continue;
+    const std::span<double> three = values.subspan(block.offset, 3);
+    if (block.kind == AttributeKind::kColour) {
+      for (double& x : three) x = std::clamp(x, 0.0, 1.0);
+      continue;
+    }
+    const double length = std::hypot(three[0], three[1], three[2]);
+    if (length > 1e-12) {
+      for (double& x : three) x /= length;
+    }
+  }
+}
 
 double triangle_weight(const SurfaceMesh& mesh, std::int32_t h, bool area_weights) {
   if (!area_weights) return 1;
@@ -43,41 +60,6 @@ double triangle_weight(const SurfaceMesh& mesh, std::int32_t h, bool area_weight
   const Vec<3> ab = mesh.position[at(mesh.destination(h))] - a;
   const Vec<3> n = cross(ab, mesh.position[at(mesh.origin[at(Halfedges::previous(h))])] - a);
   return std::sqrt(dot(n, n)) / 2;
-}
-
-SurfaceAttributes attributes_of(const SurfaceMesh& mesh, const Surface& surface, bool area_weights) {
-  SurfaceAttributes result;
-  for (const SurfaceAttribute& attribute : surface.attributes) {
-    if (attribute.kind == AttributeKind::kScalar) {
-      ScalarField scalar{attribute.name, {}};
-      for (const std::uint32_t v : mesh.original_vertex) scalar.value.push_back(attribute.values[v]);
-      result.scalars.push_back(std::move(scalar));
-    } else {
-      result.fields.push_back(field_of(mesh, attribute));
-      sum_quadrics(mesh, result.fields.back(), area_weights);
-    }
-  }
-  return result;
-}
-
-Vec<3> best_value(const Quadric<3>& quadric, const Vec<3>& between, AttributeKind kind) {
-  constexpr double kDraw = 1e-3;
-  using Q = Quadric<3>;
-  Q drawn = quadric;
-  const double trace = quadric.q[Q::a(0, 0)] + quadric.q[Q::a(1, 1)] + quadric.q[Q::a(2, 2)];
-  drawn.add_point(between, kDraw * trace);
-  Vec<3> r;
-  for (std::size_t i = 0; i < 3; ++i) r[i] = -drawn.q[Q::b(i)];
-  Vec<3> value = between;
-  if (!solve(drawn, r, 1e-9, value)) value = between;
-  if (kind == AttributeKind::kColour) {
-    for (double& x : value) x = std::clamp(x, 0.0, 1.0);
-    return value;
-  }
-  const double length = std::sqrt(dot(value, value));
-  if (!(length > 1e-12)) return between;
-  for (double& x : value) x /= length;
-  return value;
 }
 
 }  // namespace tinsmith

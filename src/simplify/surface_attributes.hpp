@@ -1,8 +1,11 @@
 #pragma once
-// Colours and normals in the collapse: a quadric of their own for each wedge, eq. 25-28 of the paper.
+// Colours, normals and scalars in the collapse. Their values live on wedges; how far new values are from the
+// surface's is measured by quadrics of one of three forms.
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "geometry/quadric.hpp"
@@ -10,34 +13,69 @@
 
 namespace tinsmith {
 
-/// One attribute with three components at every wedge, and its quadrics.
-struct AttributeField {
-  AttributeKind kind = AttributeKind::kColour;
-  std::vector<Vec<3>> value;        // by wedge
-  std::vector<Quadric<3>> quadric;  // by wedge
+/// Two wedges that a collapse makes one.
+struct WedgePair {
+  std::int32_t w0 = kNone;
+  std::int32_t w1 = kNone;
 };
 
-/// A number at every wedge that goes along with the collapse and costs nothing.
-struct ScalarField {
-  std::string name;
-  std::vector<double> value;  // by wedge
+/// All attributes of all wedges, in the order of the surface's, so scaled that each has a range of about 1.
+struct WedgeValues {
+  struct Block {
+    AttributeKind kind = AttributeKind::kScalar;
+    std::size_t offset = 0;  // of its first component
+    double lowest = 0;       // scalars: the file's value is lowest + range x ours
+    double range = 1;
+  };
+  std::vector<Block> blocks;
+  std::size_t n_components = 0;
+  std::vector<double> values;  // n_components for each wedge
+
+  std::span<const double> of(std::int32_t w) const {
+    return {values.data() + static_cast<std::size_t>(w) * n_components, n_components};
+  }
+  std::span<double> of(std::int32_t w) {
+    return {values.data() + static_cast<std::size_t>(w) * n_components, n_components};
+  }
 };
 
-/// The attributes of a surface under simplification.
-struct SurfaceAttributes {
-  std::vector<AttributeField> fields;
-  std::vector<ScalarField> scalars;
+WedgeValues wedge_values(const SurfaceMesh& mesh, const Surface& surface);
+
+/// Puts values back into their ranges: colours within [0, 1], normals at unit length.
+void put_in_range(const WedgeValues& all, std::span<double> values);
+
+/// The quadrics of all wedges. A place and values have the cost geometry(place) + cost(pair, place, values).
+class AttributeQuadrics {
+ public:
+  AttributeQuadrics() = default;
+  AttributeQuadrics(const AttributeQuadrics&) = delete;
+  AttributeQuadrics& operator=(const AttributeQuadrics&) = delete;
+  virtual ~AttributeQuadrics() = default;
+
+  /// Adds what the best values for each place make the place cost.
+  virtual void add_cost_of_place(const WedgePair& pair, Quadric<3>& geometry) const = 0;
+  /// Replaces values between those of the pair by the best ones for the place.
+  virtual void find_best(const WedgePair& pair, const Vec<3>& place, std::span<double> values) const = 0;
+  virtual double cost(const WedgePair& pair, const Vec<3>& place, std::span<const double> values) const = 0;
+  /// Adds the quadric of the wedge that goes to that of the one that stays.
+  virtual void unite(std::int32_t kept, std::int32_t gone) = 0;
 };
 
-/// Values of the wedges' original vertices, and quadrics summed over their triangles (weights: see
-/// `triangle_weight`).
-SurfaceAttributes attributes_of(const SurfaceMesh& mesh, const Surface& surface, bool area_weights);
+/// The paper's, eq. 25-28: of each attribute the plane, line or point that a triangle's values span in its own
+/// three dimensions. Scalars cost nothing.
+std::unique_ptr<AttributeQuadrics> separate_quadrics(const SurfaceMesh& mesh, const WedgeValues& all,
+                                                     const SimplifySurfaceOptions& options);
+
+/// Garland and Heckbert 1998: the flat of the triangle in six dimensions, place and the first colour or normal; it
+/// holds the geometry too. Other attributes cost nothing.
+std::unique_ptr<AttributeQuadrics> combined_quadrics(const SurfaceMesh& mesh, const WedgeValues& all,
+                                                     const SimplifySurfaceOptions& options);
+
+/// Hoppe 1999: the difference from the linear function of the place that each component is over a triangle.
+std::unique_ptr<AttributeQuadrics> gradient_quadrics(const SurfaceMesh& mesh, const WedgeValues& all,
+                                                     const SimplifySurfaceOptions& options);
 
 /// The weight of a triangle's planes: its area, or 1.
 double triangle_weight(const SurfaceMesh& mesh, std::int32_t h, bool area_weights);
-
-/// The best value of an attribute for a collapsed pair of wedges: the minimum of their quadric, drawn a little to
-/// the value `between` them, which decides where the quadric leaves it open; in the attribute's range.
-Vec<3> best_value(const Quadric<3>& quadric, const Vec<3>& between, AttributeKind kind);
 
 }  // namespace tinsmith
