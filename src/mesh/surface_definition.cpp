@@ -319,20 +319,22 @@ Renumbering renumber(const Triangles& triangles, const std::vector<std::uint32_t
   return result;
 }
 
-/// The fans of the triangles, cut apart at bad edges; is_locked (by vertex) marks the ends of these.
+/// The fans of the triangles, cut apart at bad edges, which are counted.
 ParitySets cut_at_bad_edges(const Triangles& triangles, const Buckets<std::uint32_t>& edges,
-                            const std::vector<std::uint8_t>& is_flipped, std::vector<std::uint8_t>& is_locked,
-                            SurfaceDefects& defects) {
+                            const std::vector<std::uint8_t>& is_flipped, SurfaceDefects& defects) {
   ParitySets fans(3 * triangles.size());
   for_each_group(edges, [&](std::span<const Side> sides) {
-    const EdgeState state = state_of(triangles, is_flipped, sides);
-    if (state == EdgeState::kManifold) {
-      join_fans(triangles, sides, fans);
-      return;
+    switch (state_of(triangles, is_flipped, sides)) {
+      case EdgeState::kManifold:
+        join_fans(triangles, sides, fans);
+        break;
+      case EdgeState::kNonManifold:
+        ++defects.non_manifold_edges;
+        break;
+      case EdgeState::kUnorientable:
+        ++defects.unorientable_edges;
+        break;
     }
-    const std::uint32_t corner = sides[0].item;
-    is_locked[vertex_at(triangles, corner)] = is_locked[vertex_at(triangles, next_corner(corner))] = 1;
-    ++(state == EdgeState::kNonManifold ? defects.non_manifold_edges : defects.unorientable_edges);
   });
   return fans;
 }
@@ -368,8 +370,9 @@ Surface gather(const Surface& original, Renumbering& renumbering) {
 
 // Cutting at an edge takes its triangles out of each other's fans, no more. Two of them may still be the ends of
 // one fan at both of its vertices (a sphere with a fin); then they run along the edge in opposite directions, as a
-// fan is wound one way, and stay joined. More than two can't, as a fan has two ends. An edge that can't be oriented
-// always parts: around a vertex inside the surface there is an even number of them.
+// fan is wound one way, and stay joined. More than two can't, as a fan has two ends. The triangles at an edge that
+// can't be oriented always part, as they run in the same direction. So both ends of every bad edge have more than
+// one fan, and the vertices to lock are those that have.
 ManifoldSurface manifold_of(const Surface& surface, SurfaceDefects& defects) {
   check_counts(surface);
   check_vertices(surface);
@@ -381,8 +384,7 @@ ManifoldSurface manifold_of(const Surface& surface, SurfaceDefects& defects) {
   const std::vector<std::uint8_t> is_flipped = find_flipped(triangles, edges);
   defects.flipped_triangles = static_cast<std::uint64_t>(std::count(is_flipped.begin(), is_flipped.end(), 1));
 
-  std::vector<std::uint8_t> is_locked(n_vertices);
-  ParitySets fans = cut_at_bad_edges(triangles, edges, is_flipped, is_locked, defects);
+  ParitySets fans = cut_at_bad_edges(triangles, edges, is_flipped, defects);
   const std::vector<std::uint32_t> n_fans = count_fans(triangles, n_vertices, fans);
   defects.unreferenced_vertices = static_cast<std::uint64_t>(std::count(n_fans.begin(), n_fans.end(), 0U));
   Renumbering renumbering = renumber(triangles, n_fans, fans);
@@ -393,8 +395,7 @@ ManifoldSurface manifold_of(const Surface& surface, SurfaceDefects& defects) {
 
   ManifoldSurface result;
   result.surface = gather(surface, renumbering);
-  for (const std::uint32_t v : renumbering.original_vertex)
-    result.is_locked.push_back(is_locked[v] != 0 || n_fans[v] > 1 ? 1 : 0);
+  for (const std::uint32_t v : renumbering.original_vertex) result.is_locked.push_back(n_fans[v] > 1 ? 1 : 0);
   result.original_vertex = std::move(renumbering.original_vertex);
   return result;
 }
