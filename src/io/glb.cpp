@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "io/glb_chunks.hpp"
 #include "io/input_file.hpp"
 #include "io/mesh_text.hpp"
 #include "io/output_file.hpp"
@@ -27,11 +28,6 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 static_assert(std::endian::native == std::endian::little, "glTF is written in the machine's byte order");
 
-constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
-constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
-constexpr std::uint64_t kHeaderBytes = 12;
-constexpr std::uint64_t kChunkHeaderBytes = 8;
 constexpr std::uint64_t kMaxJsonBytes = 1 << 24;  // ours have some kilobytes: a CRS and a page of numbers
 constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125;
 constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;
@@ -69,9 +65,6 @@ std::array<double, 3> to_crs(const GridFrame& frame, const LocalFrame& local, co
                                    static_cast<double>(local.row) + local.row_sign * p[2]);
   return {x, y, local.height + p[1] / local.metres_per_unit[2]};
 }
-
-/// Padding to the four bytes that glTF wants.
-std::uint64_t padded(std::uint64_t size) { return (size + 3) / 4 * 4; }
 
 // ---- writing
 
@@ -212,11 +205,6 @@ std::string json_text(const std::string& path, const TerrainMesh& mesh, const Gr
   return text;
 }
 
-void write_chunk_header(OutputFile& file, std::uint64_t size, std::uint32_t type) {
-  const std::array<std::uint32_t, 2> header{static_cast<std::uint32_t>(size), type};
-  file.write(header.data(), sizeof header);
-}
-
 void write_triangle(OutputFile& file, const Triangle& triangle, std::uint64_t index_bytes) {
   if (index_bytes == 4) return file.write(triangle.data(), sizeof triangle);
   const std::array<std::uint16_t, 3> narrow{static_cast<std::uint16_t>(triangle[0]),
@@ -275,16 +263,8 @@ Document interpret(const Json& json) {
   return document;
 }
 
-std::uint64_t read_chunk_header(InputFile& file, std::uint32_t type, const char* name) {
-  const std::uint64_t size = file.read<std::uint32_t>();
-  if (file.read<std::uint32_t>() != type || size > file.left())
-    file.fail(fmt::format("has no whole {} chunk here", name));
-  return size;
-}
-
 Document read_document(InputFile& file) {
-  if (file.read<std::uint32_t>() != kMagic || file.read<std::uint32_t>() != 2) file.fail("is no binary glTF 2");
-  if (file.read<std::uint32_t>() != file.size()) file.fail("is not as long as its head says");
+  read_glb_header(file);
   const std::uint64_t size = read_chunk_header(file, kJsonChunk, "JSON");
   if (size > kMaxJsonBytes) file.fail("has more JSON than a mesh of ours can have");
   std::string text(size, ' ');
@@ -332,14 +312,10 @@ void write_glb(const std::string& path, const TerrainMesh& mesh, const GridFrame
   const std::string json = json_text(path, mesh, frame, local);
   const Layout layout(mesh);
   const std::uint64_t binary = padded(layout.positions + layout.indices);
-  const std::uint64_t total = kHeaderBytes + 2 * kChunkHeaderBytes + json.size() + binary;
-  if (total > std::numeric_limits<std::uint32_t>::max())
-    throw ResourceError(
-        fmt::format("{}: {} bytes are more than the 4 GiB of a .glb; write .ply instead", path, total));
+  const std::uint32_t total = glb_size(path, json.size(), binary);
 
   OutputFile file(path);
-  const std::array<std::uint32_t, 3> header{kMagic, 2, static_cast<std::uint32_t>(total)};
-  file.write(header.data(), sizeof header);
+  write_glb_header(file, total);
   write_chunk_header(file, json.size(), kJsonChunk);
   file.write(json);
   write_chunk_header(file, binary, kBinChunk);

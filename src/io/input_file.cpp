@@ -68,7 +68,7 @@ void InputFile::read(void* bytes, std::size_t size) {
   }
 }
 
-bool InputFile::read_line(std::string_view& line) {
+bool InputFile::read_line(std::string_view& line, LastLine last_line) {
   std::size_t searched = 0;
   while (true) {
     const std::string_view ready(buffer_.data() + begin_, end_ - begin_);
@@ -84,7 +84,11 @@ bool InputFile::read_line(std::string_view& line) {
     if (ready.size() == buffer_.size()) fail("a line is too long to be one of a mesh");
     if (refill()) continue;
     if (begin_ == end_) return false;
-    fail("the last line is cut short");
+    if (last_line == LastLine::kNeedsEnd) fail("the last line is cut short");
+    line = std::string_view(buffer_.data() + begin_, end_ - begin_);
+    position_ += line.size();
+    begin_ = end_;
+    return true;
   }
 }
 

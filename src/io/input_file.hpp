@@ -8,6 +8,9 @@
 
 namespace tinsmith {
 
+/// Whether a file of lines may end without a line end, as other programs' files do.
+enum class LastLine { kNeedsEnd, kMayLackEnd };
+
 /// Sequential buffered reading of a regular file, as bytes or line by line. Every failure is an InputError
 /// that names the path and the byte at which it was noticed.
 class InputFile {
@@ -30,8 +33,8 @@ class InputFile {
   }
 
   /// The next line without its end; it lives until the next call. False at the end of the file. A last line
-  /// without an end is a file cut short.
-  bool read_line(std::string_view& line);
+  /// without an end is a file cut short, unless it may lack one.
+  bool read_line(std::string_view& line, LastLine last_line = LastLine::kNeedsEnd);
 
   [[noreturn]] void fail(const std::string& what) const;
 

@@ -17,6 +17,14 @@ namespace {
 
 constexpr std::string_view kCountsComment = "# tinsmith mesh; vertices, triangles:";
 
+template <class T>
+void append(std::string& line, T value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  line += ' ';
+  line.append(digits.data(), end);
+}
+
 std::string prj_path(const std::string& mesh_path) {
   return std::filesystem::path(mesh_path).replace_extension(".prj").string();
 }
@@ -55,22 +63,16 @@ std::string one_line(const std::string& wkt) {
   return line;
 }
 
-void append_number(std::string& line, double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  line += ' ';
-  line.append(digits.data(), end);
-}
-
-void append_number(std::string& line, std::uint64_t value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  line += ' ';
-  line.append(digits.data(), end);
-}
+void append_number(std::string& line, double value) { append(line, value); }
+void append_number(std::string& line, float value) { append(line, value); }
+void append_number(std::string& line, std::uint64_t value) { append(line, value); }
 
 std::string counts_comment(const TerrainMesh& mesh) {
-  return fmt::format("{} {} {}\n", kCountsComment, mesh.position.size(), mesh.triangles.size());
+  return counts_comment(mesh.position.size(), mesh.triangles.size());
+}
+
+std::string counts_comment(std::size_t n_vertices, std::size_t n_triangles) {
+  return fmt::format("{} {} {}\n", kCountsComment, n_vertices, n_triangles);
 }
 
 template <class T>
@@ -107,9 +109,13 @@ bool TextCounts::read_comment(const InputFile& file, std::string_view line) {
 
 void TextCounts::require_whole(const InputFile& file, const Tin& tin) const {
   if (!counts_ && tin.triangles.empty()) file.fail("has no triangles");
-  if (counts_ && *counts_ != std::array<std::uint64_t, 2>{tin.vertices.size(), tin.triangles.size()})
-    file.fail(fmt::format("has {} vertices and {} triangles where its head promises {} and {}", tin.vertices.size(),
-                          tin.triangles.size(), (*counts_)[0], (*counts_)[1]));
+  require_whole(file, tin.vertices.size(), tin.triangles.size());
+}
+
+void TextCounts::require_whole(const InputFile& file, std::size_t n_vertices, std::size_t n_triangles) const {
+  if (counts_ && *counts_ != std::array<std::uint64_t, 2>{n_vertices, n_triangles})
+    file.fail(fmt::format("has {} vertices and {} triangles where its head promises {} and {}", n_vertices,
+                          n_triangles, (*counts_)[0], (*counts_)[1]));
 }
 
 std::string read_prj(const std::string& mesh_path) {

@@ -24,12 +24,14 @@ std::array<std::uint32_t, 3> turned(std::array<std::uint32_t, 3> triangle, bool 
 /// WKT without line breaks.
 std::string one_line(const std::string& wkt);
 
-/// Appends a blank and the shortest decimals that read back as the same double; or an index.
+/// Appends a blank and the shortest decimals that read back as the same double or float; or an index.
 void append_number(std::string& line, double value);
+void append_number(std::string& line, float value);
 void append_number(std::string& line, std::uint64_t value);
 
 /// The comment by which a reader of a text format knows that nothing is missing.
 std::string counts_comment(const TerrainMesh& mesh);
+std::string counts_comment(std::size_t n_vertices, std::size_t n_triangles);
 
 /// Numbers of a line of text, one after the other. Complains through the file.
 class LineNumbers {
@@ -55,6 +57,8 @@ class TextCounts {
   /// Returns whether the line was the comment.
   bool read_comment(const InputFile& file, std::string_view line);
   void require_whole(const InputFile& file, const Tin& tin) const;
+  /// The same where nothing is missing without the comment.
+  void require_whole(const InputFile& file, std::size_t n_vertices, std::size_t n_triangles) const;
 
  private:
   std::optional<std::array<std::uint64_t, 2>> counts_;
