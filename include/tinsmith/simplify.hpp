@@ -14,7 +14,10 @@
 
 namespace tinsmith {
 
-/// How geometry and attributes share a quadric.
+/// How geometry and attributes share a quadric. Measured on a scan of 43 200 triangles with a checkered colour, at
+/// 20 %: RMS errors of colour and geometry, relative to a simplification that ignores the colour, are 0.81 and 1.02
+/// for separate quadrics (weight 1), 0.32 and 1.10 for combined ones (1e-5) and 0.32 and 1.10 for gradients (1e-5);
+/// with smooth colours at 5 % 0.99, 0.80 and 0.80 at the same geometry. Combined quadrics take twice as long.
 enum class QuadricForm {
   kSeparate,  // one each, in three dimensions: 20 coefficients with one attribute (the paper, eq. 25-28)
   kCombined,  // one in six dimensions: 28 coefficients (Garland and Heckbert 1998)
@@ -29,8 +32,10 @@ struct SimplifySurfaceOptions {
   Placement placement = Placement::kOptimal;
   bool area_weights = true;  // planes count by the area of their triangles; false: all the same (eq. 3 as printed)
   bool half_space = true;    // eq. 12-24: no triangle may turn over
-  QuadricForm quadric = QuadricForm::kSeparate;
-  double attribute_weight = 1;   // alpha of Cost = E_g + alpha E_c; 0: attributes follow and cost nothing
+  QuadricForm quadric = QuadricForm::kGradient;
+  // alpha of Cost = E_g + alpha E_c, the geometry in units of its largest extent; 0: attributes follow and cost
+  // nothing. Default: 1 for separate quadrics, 1e-5 for the others.
+  std::optional<double> attribute_weight;
   std::optional<double> crease;  // degrees: edges whose triangles meet at more than that are features
   bool keep_seams = true;  // edges along which colours or normals differ are features; false: one side's remain
   std::vector<std::array<std::uint32_t, 2>> feature_edges;  // more of them, by vertices of the input
@@ -67,7 +72,8 @@ struct SimplifySurfaceReport {
   double last_cost = 0;  // of the costliest collapse that was made
 };
 
-/// The simplified surface. Throws UsageError for options out of range and Interrupted.
+/// The simplified surface. Throws UsageError for options out of range, InputError for vertex numbers that don't
+/// exist and numbers that are not finite, ResourceError above 2^32 / 3 triangles, and Interrupted.
 Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& options,
                          SimplifySurfaceReport& report);
 

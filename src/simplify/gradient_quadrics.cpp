@@ -20,7 +20,7 @@ struct Linear {
 class Gradient : public AttributeQuadrics {
  public:
   Gradient(const SurfaceMesh& mesh, const WedgeValues& all, const SimplifySurfaceOptions& options)
-      : attribute_weight_(options.attribute_weight),
+      : attribute_weight_(attribute_weight(options)),
         n_(all.n_components),
         square_(mesh.original_vertex.size()),
         linear_(mesh.original_vertex.size() * n_),

@@ -20,7 +20,7 @@ Vec<3> three(std::span<const double> values, std::size_t offset) {
 class Separate : public AttributeQuadrics {
  public:
   Separate(const SurfaceMesh& mesh, const WedgeValues& all, const SimplifySurfaceOptions& options)
-      : weight_(options.attribute_weight) {
+      : weight_(attribute_weight(options)) {
     for (const WedgeValues::Block& block : all.blocks) {
       if (block.kind != AttributeKind::kScalar) offsets_.push_back(block.offset);
     }

@@ -157,7 +157,7 @@ class SurfaceSimplifier {
   }
 
   double attribute_cost(std::int32_t h, const Collapse& collapse) {
-    if (!attributes_ || (options_.attribute_weight == 0 && !has_combined())) return 0;
+    if (!attributes_ || (attribute_weight(options_) == 0 && !has_combined())) return 0;
     double cost = 0;
     for (const WedgePair& pair : wedge_pairs(h))
       cost += attributes_->cost(pair, collapse.position, new_values(pair, collapse));
@@ -468,6 +468,18 @@ Surface surface_of(const SurfaceMesh& mesh, const WedgeValues& values, const Sur
   return result;
 }
 
+void require_sane(const SimplifySurfaceOptions& options) {
+  if (options.triangles && !(*options.triangles >= 0))
+    throw UsageError("the number of triangles must be 0 or more");
+  if (options.ratio && !(*options.ratio > 0 && *options.ratio <= 1))
+    throw UsageError("the ratio must be above 0 and at most 1");
+  if (options.max_cost && !(*options.max_cost >= 0)) throw UsageError("the largest cost must be 0 or more");
+  if (options.attribute_weight && !(*options.attribute_weight >= 0))
+    throw UsageError("the attributes' weight must be 0 or more");
+  if (options.crease && !(*options.crease >= 0 && *options.crease <= 180))
+    throw UsageError("the crease angle must be from 0 to 180 degrees");
+}
+
 double target_of(const SimplifySurfaceOptions& options, std::size_t n_triangles) {
   double target = 0;
   if (options.triangles) target = std::max(target, *options.triangles);
@@ -479,6 +491,7 @@ double target_of(const SimplifySurfaceOptions& options, std::size_t n_triangles)
 
 Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& options,
                          SimplifySurfaceReport& report) {
+  require_sane(options);
   report = {};
   report.input_vertices = surface.position.size();
   report.input_triangles = surface.triangles.size();

@@ -54,6 +54,11 @@ void put_in_range(const WedgeValues& all, std::span<double> values) {
   }
 }
 
+double attribute_weight(const SimplifySurfaceOptions& options) {
+  if (options.attribute_weight) return *options.attribute_weight;
+  return options.quadric == QuadricForm::kSeparate ? 1 : 1e-5;
+}
+
 double triangle_weight(const SurfaceMesh& mesh, std::int32_t h, bool area_weights) {
   if (!area_weights) return 1;
   const Vec<3>& a = mesh.position[at(mesh.origin[at(h)])];

@@ -75,6 +75,9 @@ std::unique_ptr<AttributeQuadrics> combined_quadrics(const SurfaceMesh& mesh, co
 std::unique_ptr<AttributeQuadrics> gradient_quadrics(const SurfaceMesh& mesh, const WedgeValues& all,
                                                      const SimplifySurfaceOptions& options);
 
+/// The one asked for, or the default of the form.
+double attribute_weight(const SimplifySurfaceOptions& options);
+
 /// The weight of a triangle's planes: its area, or 1.
 double triangle_weight(const SurfaceMesh& mesh, std::int32_t h, bool area_weights);
 

@@ -10,6 +10,7 @@
 
 #include "support/surface_measures.hpp"
 #include "support/surface_shapes.hpp"
+#include "tinsmith/error.hpp"
 #include "tinsmith/simplify.hpp"
 
 namespace tinsmith {
@@ -165,6 +166,88 @@ TEST(SimplifySurface, IsNotDisturbedByAConstantColour) {
   EXPECT_EQ(plain.position, coloured.position);
   EXPECT_EQ(plain.triangles, coloured.triangles);
   for (const float x : coloured.attributes[0].values) EXPECT_FLOAT_EQ(x, 0.25F);
+}
+
+// Root mean squared difference of the colours, from points of the reference to the nearest of the surface.
+double colour_error(const Surface& s, const Surface& reference) {
+  const auto colour_at = [](const Surface& surface, const TriangleTree::Nearest& there) {
+    const auto& [a, b, c] = surface.triangles[there.triangle];
+    const Point3 n = doubled_area_normal(surface, surface.triangles[there.triangle]);
+    const auto share = [&](std::uint32_t v, std::uint32_t w) {
+      return dot(cross(minus(surface.position[v], there.point), minus(surface.position[w], there.point)), n) /
+             dot(n, n);
+    };
+    const std::array<double, 3> weight{share(b, c), share(c, a), share(a, b)};
+    const std::vector<float>& values = surface.find(AttributeKind::kColour)->values;
+    Point3 colour{};
+    for (std::size_t k = 0; k < 3; ++k)
+      colour[k] = weight[0] * values[3 * a + k] + weight[1] * values[3 * b + k] + weight[2] * values[3 * c + k];
+    return colour;
+  };
+  const TriangleTree tree(s);
+  const TriangleTree reference_tree(reference);
+  double sum = 0;
+  const std::vector<Point3> points = sample_points(reference, 10'000);
+  for (const Point3& p : points) {
+    const Point3 off = minus(colour_at(s, tree.nearest(p)), colour_at(reference, reference_tree.nearest(p)));
+    sum += dot(off, off);
+  }
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+// With the default form and weight the colour gains much and the geometry loses little.
+TEST(SimplifySurface, KeepsColoursBetterThanGeometryAlone) {
+  struct Case {
+    Surface surface;
+    double ratio;
+    double colour;  // at most so much of the error that geometry alone gives
+  };
+  for (const auto& [surface, ratio, colour] :
+       {Case{with_checker_colour(scan(40), 5), 0.3, 0.6}, Case{with_gradient_colour(scan(40)), 0.1, 0.9}}) {
+    SimplifySurfaceOptions options;
+    const Surface with_colour = simplified(surface, options, ratio).surface;
+    options.attribute_weight = 0;  // the values follow the place, nothing more
+    options.quadric = QuadricForm::kSeparate;
+    const Surface geometry_only = simplified(surface, options, ratio).surface;
+    EXPECT_LE(colour_error(with_colour, surface), colour * colour_error(geometry_only, surface));
+    EXPECT_LE(distance(with_colour, surface, 10'000).rms(), 1.15 * distance(geometry_only, surface, 10'000).rms());
+  }
+}
+
+TEST(SimplifySurface, EveryFormKeepsTheSurface) {
+  const Surface surface = with_normals(with_checker_colour(scan(24), 5));
+  for (const QuadricForm form : {QuadricForm::kSeparate, QuadricForm::kCombined, QuadricForm::kGradient}) {
+    for (const Placement placement : {Placement::kOptimal, Placement::kSegment, Placement::kSubset}) {
+      SimplifySurfaceOptions options;
+      options.quadric = form;
+      options.placement = placement;
+      const Surface result = simplified(surface, options, 0.1).surface;
+      EXPECT_LE(result.triangles.size(), surface.triangles.size() / 10);
+      EXPECT_TRUE(is_closed_manifold(result));
+      EXPECT_LT(distance(result, surface, 4'000).max(), 0.06);
+    }
+  }
+}
+
+TEST(SimplifySurface, CarriesScalarsOfAnyRange) {
+  Surface surface = scan(24);
+  SurfaceAttribute height{AttributeKind::kScalar, "height", {}};
+  for (const Point3& p : surface.position) height.values.push_back(static_cast<float>(5000 + 3000 * p[2]));
+  surface.attributes.push_back(height);
+  const Surface result = simplified(surface, {}, 0.1).surface;
+  ASSERT_EQ(result.attributes.size(), 1U);
+  EXPECT_EQ(result.attributes[0].name, "height");
+  for (std::size_t v = 0; v < result.position.size(); ++v)
+    EXPECT_NEAR(result.attributes[0].values[v], 5000 + 3000 * result.position[v][2], 150);
+}
+
+TEST(SimplifySurface, RefusesOptionsOutOfRange) {
+  SimplifySurfaceReport report;
+  for (const double ratio : {0.0, -1.0, 1.5, std::nan("")}) {
+    SimplifySurfaceOptions options;
+    options.ratio = ratio;
+    EXPECT_THROW(simplify_surface(sphere(4), options, report), UsageError);
+  }
 }
 
 // Every face of the cube has its own vertices and normals, as in most files: the seams are lines, and nothing
