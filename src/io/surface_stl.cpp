@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string_view>
 #include <vector>
@@ -53,11 +52,14 @@ class Welder {
  private:
   static constexpr std::uint32_t kEmpty = std::numeric_limits<std::uint32_t>::max();
 
+  using Bits = std::array<std::uint64_t, 3>;
+  static Bits bits(const Place& place) { return std::bit_cast<Bits>(place); }
+
   /// Mixes as the finish of MurmurHash3 does.
   static std::uint64_t hash(const Place& place) {
     std::uint64_t h = 0;
-    for (const double coordinate : place) {
-      h = (h ^ std::bit_cast<std::uint64_t>(coordinate)) * 0xff51afd7ed558ccdU;
+    for (const std::uint64_t coordinate : bits(place)) {
+      h = (h ^ coordinate) * 0xff51afd7ed558ccdU;
       h ^= h >> 33U;
     }
     return h;
@@ -66,8 +68,7 @@ class Welder {
   /// Where the place is in the table, or belongs. Bits are compared, so that what is no number finds itself too.
   std::size_t find(const Place& place) const {
     std::size_t s = hash(place) & (slots_.size() - 1);
-    while (slots_[s] != kEmpty && std::memcmp(&places_[slots_[s]], &place, sizeof place) != 0)
-      s = (s + 1) & (slots_.size() - 1);
+    while (slots_[s] != kEmpty && bits(places_[slots_[s]]) != bits(place)) s = (s + 1) & (slots_.size() - 1);
     return s;
   }
 
