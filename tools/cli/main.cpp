@@ -23,6 +23,7 @@ usage: tinsmith VERB ARGUMENTS...
   verify     measures a TIN against every sample of the DEM, anew
   render     hillshade, wireframe and error map as a PNG
   info       what is in a raster or mesh file
+  simplify   any triangle mesh (scan, model, coloured terrain) with fewer triangles
 
   tinsmith VERB --help   the manual of a verb, with examples
   tinsmith --version
@@ -31,10 +32,11 @@ example:
   tinsmith compress dem.tif dem.ply --max-error 10
   tinsmith verify dem.tif dem.ply --max-error 10
   tinsmith render dem.tif dem.ply dem.png
+  tinsmith simplify scan.ply small.ply --ratio 0.05
 
-Rasters are whatever GDAL reads. Meshes are .ply, .obj, .glb (glTF 2.0) and .2dm. Results go to standard
-output, progress and complaints to standard error. A file appears under its name only when it is whole; a run
-that fails leaves what stood there before.
+Rasters are whatever GDAL reads. Meshes are .ply, .obj, .glb (glTF 2.0) and .2dm; simplify takes and makes .ply,
+.obj, .stl and .glb. Results go to standard output, progress and complaints to standard error. A file appears under
+its name only when it is whole; a run that fails leaves what stood there before.
 
 exit codes: 0 done; 1 the result does not hold; 2 wrong usage; 3 an input can't be used; 4 an output can't be
 written; 5 memory or a format's limit does not suffice; 130 interrupted
@@ -54,7 +56,7 @@ int answer(const CLI::App& program, const CLI::ParseError& error, const std::str
   const auto verbs = program.get_subcommands();
   if (verbs.empty())
     return complain((first_word.empty() ? "what to do?" : first_word + ": no such verb;") +
-                        " there are compress, verify, render and info; see tinsmith --help",
+                        " there are compress, verify, render, info and simplify; see tinsmith --help",
                     kWrongUsage);
   const std::string verb = verbs.front()->get_name() + " ";
   return complain(std::string(error.what()) + "; see tinsmith " + verb + "--help", kWrongUsage);
@@ -70,6 +72,7 @@ int run_program(int argc, char** argv) {
   add_verify(program, run);
   add_render(program, run);
   add_info(program, run);
+  add_simplify(program, run);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,6 +10,7 @@ namespace tinsmith::cli {
 using Run = std::function<int()>;
 
 void add_compress(CLI::App& program, Run& run);
+void add_simplify(CLI::App& program, Run& run);
 void add_verify(CLI::App& program, Run& run);
 void add_render(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);

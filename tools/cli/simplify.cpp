@@ -1,0 +1,240 @@
+// tinsmith simplify: any triangle mesh in, the same surface with fewer triangles out.
+
+#include "tinsmith/simplify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "choose.hpp"
+#include "edge_list.hpp"
+#include "inputs.hpp"
+#include "progress_bar.hpp"
+#include "report.hpp"
+#include "simplify_summary.hpp"
+#include "text.hpp"
+#include "tinsmith/error.hpp"
+#include "tinsmith/version.hpp"
+#include "verbs.hpp"
+
+namespace tinsmith::cli {
+namespace {
+
+constexpr const char* kManual = R"(tinsmith simplify: any triangle mesh with fewer triangles, by edge collapse.
+
+usage: tinsmith simplify MESH OUTPUT [options]
+
+MESH and OUTPUT are .ply, .obj, .stl or .glb; OUTPUT's format is that of its extension. Colours, normals and other
+values at the vertices are simplified together with the shape (.stl holds none). Borders and features are simplified
+along themselves; corners, where they meet or turn sharply, stay. What is wrong with the input (triangles that are
+there twice or face against their neighbours, edges with more than two triangles, ...) is counted, mended where that
+loses nothing, else kept as it is.
+
+when to stop, at the first that is reached; without any, when no edge can be collapsed:
+  --triangles N          at most N triangles
+  --ratio R              the same as a fraction of the input's triangles, above 0, at most 1
+  --max-cost C           no collapse that costs more: mean squared distance, in square units of the mesh; 0 or more
+
+options:
+  --placement P          where a vertex may lie: optimal (anywhere), segment (on the collapsed edge) or subset
+                         (every vertex is one of the input) (default optimal)
+  --no-area-weights      all triangles count the same, whatever their area
+  --no-half-space        let triangles turn over (faster, and wrong; to see what the test prevents)
+  --quadric Q            how shape and values at the vertices make up the cost: separate (a quadric each, as in the
+                         paper), combined (one in all dimensions) or gradient (values as linear functions of the
+                         place) (default {})
+  --attribute-weight A   how much the values at the vertices count beside the shape, whose largest extent is 1; 0: they
+                         follow (default: 1 for separate, 1e-5 for the others)
+  --crease D             edges whose triangles meet at more than D degrees are features; 0 to 180 (default: none)
+  --no-seams             edges along which colours or normals differ are no features
+  --feature-edges FILE   more features: text, one edge a line as two vertex numbers of the input, from 0 in the order
+                         of the file; what follows # is a comment
+  --drop-attributes      read the shape only
+  --json FILE            the report as one JSON object; - prints it to standard output and nothing else
+  --quiet                no progress bar, no remarks
+  --verbose              every number of the report
+
+The bytes written depend on the input and options only.
+
+examples:
+  tinsmith simplify scan.ply small.ply --ratio 0.05
+  tinsmith simplify part.stl part.glb --triangles 20000 --crease 40
+  tinsmith simplify scan.ply scan_1mm.ply --max-cost 1e-6 --json report.json
+
+exit codes: 0 done; 2 wrong usage; 3 an input can't be used; 4 an output can't be written; 5 memory or the format
+does not suffice; 130 interrupted. Unless the exit code is 0, what stood at OUTPUT before still stands there.
+)";
+
+const std::map<std::string, QuadricForm>& quadrics() {
+  static const std::map<std::string, QuadricForm> quadrics_by_word{{"separate", QuadricForm::kSeparate},
+                                                                   {"combined", QuadricForm::kCombined},
+                                                                   {"gradient", QuadricForm::kGradient}};
+  return quadrics_by_word;
+}
+
+std::string word_of(QuadricForm form) {
+  for (const auto& [word, known] : quadrics())
+    if (known == form) return word;
+  return "";
+}
+
+struct Flags {
+  std::string mesh;
+  std::string output;
+  SimplifySurfaceOptions options;  // what needs no words
+  std::string placement = "optimal";
+  std::string quadric = word_of(SimplifySurfaceOptions().quadric);
+  std::optional<double> attribute_weight;
+  bool no_area_weights = false;
+  bool no_half_space = false;
+  bool no_seams = false;
+  std::string feature_edges;
+  bool drop_attributes = false;
+  std::string json;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+/// Written in words as the option's manual has them; NaN is never in range.
+void require_that(bool is_in_range, const char* option, double value, const char* range) {
+  if (!is_in_range) throw UsageError(fmt::format("{} {}: must be {}", option, value, range));
+}
+
+void require_ranges(const Flags& flags) {
+  const SimplifySurfaceOptions& o = flags.options;
+  if (o.triangles)
+    require_that(*o.triangles >= 0 && std::isfinite(*o.triangles), "--triangles", *o.triangles, "0 or more");
+  if (o.ratio) require_that(*o.ratio > 0 && *o.ratio <= 1, "--ratio", *o.ratio, "above 0 and at most 1");
+  if (o.max_cost)
+    require_that(*o.max_cost >= 0 && std::isfinite(*o.max_cost), "--max-cost", *o.max_cost, "0 or more");
+  if (o.crease) require_that(*o.crease >= 0 && *o.crease <= 180, "--crease", *o.crease, "0 to 180 degrees");
+  const double weight = flags.attribute_weight.value_or(0);
+  require_that(weight >= 0 && std::isfinite(weight), "--attribute-weight", weight, "0 or more");
+}
+
+void require_agreement(const Flags& flags) {
+  if (flags.drop_attributes && flags.attribute_weight)
+    throw UsageError("simplify: --attribute-weight weighs what --drop-attributes drops; give only one of them");
+}
+
+SimplifySurfaceOptions to_options(const Flags& flags) {
+  require_ranges(flags);
+  require_agreement(flags);
+  SimplifySurfaceOptions options = flags.options;
+  options.placement = choose_placement(flags.placement);
+  options.quadric = choose("--quadric", flags.quadric, quadrics());
+  options.area_weights = !flags.no_area_weights;
+  options.half_space = !flags.no_half_space;
+  options.keep_seams = !flags.no_seams;
+  if (flags.attribute_weight) options.attribute_weight = *flags.attribute_weight;
+  return options;
+}
+
+std::string extension_of(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+void require_surface_extension(const std::string& path) {
+  for (const char* known : {".ply", ".obj", ".stl", ".glb"})
+    if (extension_of(path) == known) return;
+  throw UsageError(
+      fmt::format("{}: '{}' is no extension of a surface; use .ply, .obj, .stl or .glb", path, extension_of(path)));
+}
+
+// All that can be found wrong with the outputs before the work.
+void require_usable_outputs(const Flags& flags) {
+  std::vector<std::string> inputs{flags.mesh};
+  if (!flags.feature_edges.empty()) inputs.push_back(flags.feature_edges);
+  require_surface_extension(flags.output);
+  require_other_than_inputs(flags.output, inputs);
+  require_writable(flags.output);
+  if (flags.json.empty() || flags.json == "-") return;
+  require_other_than_inputs(flags.json, inputs);
+  require_other_than_inputs(flags.json, {flags.output});
+  require_writable(flags.json);
+}
+
+std::vector<std::string> remarks_on(const Surface& surface, const Flags& flags) {
+  if (surface.attributes.empty() || extension_of(flags.output) != ".stl") return {};
+  return {flags.output + ": .stl holds no colours, normals or other values; they are left out"};
+}
+
+Json report_of(const Flags& flags, const SimplifySurfaceReport& simplified, const Surface& result) {
+  Json report;
+  report["input"] = flags.mesh;
+  report["output"] = flags.output;
+  report["input_vertices"] = simplified.input_vertices;
+  report["input_triangles"] = simplified.input_triangles;
+  report["vertices"] = result.position.size();
+  report["triangles"] = result.triangles.size();
+  report["border_edges"] = simplified.border_edges;
+  report["feature_edges"] = simplified.feature_edges;
+  report["collapses"] = simplified.collapses;
+  report["refused_topology"] = simplified.refused_topology;
+  report["refused_half_space"] = simplified.refused_half_space;
+  report["last_cost"] = simplified.last_cost;
+  add_defects(report, simplified.defects);
+  const Resources used = resources_so_far();
+  report["seconds"] = used.seconds;
+  report["peak_memory_bytes"] = used.peak_memory_bytes;
+  report["bytes"] = std::filesystem::file_size(flags.output);
+  report["version"] = version();
+  return report;
+}
+
+int simplify_mesh(const Flags& flags) {
+  SimplifySurfaceOptions options = to_options(flags);
+  require_usable_outputs(flags);
+  Surface surface = read_surface(flags.mesh);
+  if (!flags.feature_edges.empty())
+    options.feature_edges = read_edge_list(flags.feature_edges, surface.position.size());
+  if (flags.drop_attributes) surface.attributes.clear();
+  print_remarks(remarks_on(surface, flags), flags.quiet);
+  options.progress = make_progress(flags.quiet, 0);
+  SimplifySurfaceReport simplified;
+  const double start = resources_so_far().seconds;
+  const Surface result = simplify_surface(surface, options, simplified);
+  const double end = resources_so_far().seconds;
+  options.progress = {};  // ends the line of the bar
+  write_surface(flags.output, result);
+  Json report = report_of(flags, simplified, result);
+  report["simplify_seconds"] = end - start;
+  if (!flags.json.empty()) write_json(report, flags.json);
+  if (flags.json != "-") print_simplify_summary(report, flags.verbose);
+  return 0;
+}
+
+}  // namespace
+
+void add_simplify(CLI::App& program, Run& run) {
+  CLI::App& verb = *program.add_subcommand("simplify");
+  auto flags = std::make_shared<Flags>();
+  set_manual(verb, fmt::format(kManual, flags->quadric));
+  verb.add_option("MESH", flags->mesh)->required();
+  verb.add_option("OUTPUT", flags->output)->required();
+  verb.add_option("--triangles", flags->options.triangles);
+  verb.add_option("--ratio", flags->options.ratio);
+  verb.add_option("--max-cost", flags->options.max_cost);
+  verb.add_option("--placement", flags->placement);
+  verb.add_flag("--no-area-weights", flags->no_area_weights);
+  verb.add_flag("--no-half-space", flags->no_half_space);
+  verb.add_option("--quadric", flags->quadric);
+  verb.add_option("--attribute-weight", flags->attribute_weight);
+  verb.add_option("--crease", flags->options.crease);
+  verb.add_flag("--no-seams", flags->no_seams);
+  verb.add_option("--feature-edges", flags->feature_edges);
+  verb.add_flag("--drop-attributes", flags->drop_attributes);
+  verb.add_option("--json", flags->json);
+  verb.add_flag("--quiet", flags->quiet);
+  verb.add_flag("--verbose", flags->verbose);
+  verb.callback([flags, &run] { run = [flags] { return simplify_mesh(*flags); }; });
+}
+
+}  // namespace tinsmith::cli
