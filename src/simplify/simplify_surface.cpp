@@ -77,7 +77,6 @@ class SurfaceSimplifier {
       const Entry entry = queue_.top();
       queue_.pop();
       if (mesh_.origin[at(entry.halfedge)] == kNone || version_[at(entry.halfedge)] != entry.version) continue;
-      if (options_.max_cost && mean_squared_distance(entry.halfedge) > *options_.max_cost) continue;
       try_collapse(entry.halfedge);
       if (++n_steps % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target));
     }
@@ -267,6 +266,8 @@ class SurfaceSimplifier {
 
   void try_collapse(std::int32_t h) {
     const Collapse collapse = best(h);
+    const double distance = mean_squared_distance(h, collapse.position);
+    if (options_.max_cost && distance > *options_.max_cost) return;
     if (!is_topologically_legal(h)) {
       ++report_.refused_topology;
       is_refused_[at(h)] = 1;
@@ -277,6 +278,7 @@ class SurfaceSimplifier {
       is_refused_[at(h)] = 1;
       return;
     }
+    report_.last_cost = std::max(report_.last_cost, distance);
     apply(h, collapse);
   }
 
@@ -337,7 +339,6 @@ class SurfaceSimplifier {
 
   void apply(std::int32_t h, const Collapse& collapse) {
     ++report_.collapses;
-    report_.last_cost = std::max(report_.last_cost, mean_squared_distance(h));
     const std::int32_t v0 = mesh_.origin[at(h)];
     const std::int32_t v1 = mesh_.destination(h);
     const int end = fixed_end(h);
@@ -407,13 +408,13 @@ class SurfaceSimplifier {
 
   // Of the new vertex from the planes that it stands for, in square units of the input; attributes count where they
   // are in one quadric with the place.
-  double mean_squared_distance(std::int32_t h) {
+  double mean_squared_distance(std::int32_t h, const Vec<3>& place) {
     using Q = Quadric<3>;
     Q quadric = geometry_[at(mesh_.origin[at(h)])];
     quadric += geometry_[at(mesh_.destination(h))];
     if (has_combined()) quadric = quadric_of_place(h, quadric);
     const double weight = quadric.q[Q::a(0, 0)] + quadric.q[Q::a(1, 1)] + quadric.q[Q::a(2, 2)];
-    const double error = std::max(0.0, quadric.at(best(h).position));
+    const double error = std::max(0.0, quadric.at(place));
     return weight > 0 ? error / weight * mesh_.extent * mesh_.extent : 0;
   }
 
