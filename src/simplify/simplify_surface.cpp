@@ -8,6 +8,7 @@
 #include <span>
 
 #include "geometry/half_space_test.hpp"
+#include "simplify/simplified_mesh.hpp"
 #include "simplify/surface_attributes.hpp"
 #include "simplify/surface_mesh.hpp"
 #include "tinsmith/error.hpp"
@@ -54,11 +55,12 @@ std::unique_ptr<AttributeQuadrics> attribute_quadrics(const SurfaceMesh& mesh, c
 class SurfaceSimplifier {
  public:
   SurfaceSimplifier(SurfaceMesh& mesh, WedgeValues& values, const SimplifySurfaceOptions& options,
-                    SimplifySurfaceReport& report)
+                    SimplifySurfaceReport& report, std::vector<SurfaceCollapse>* history)
       : mesh_(mesh),
         values_(values),
         options_(options),
         report_(report),
+        history_(history),
         attributes_(values.n_components > 0 ? attribute_quadrics(mesh, values, options) : nullptr),
         geometry_(mesh.position.size()),
         version_(mesh.origin.size(), 0),
@@ -268,7 +270,7 @@ class SurfaceSimplifier {
     const Collapse collapse = best(h);
     const double distance = mean_squared_distance(h, collapse.position);
     if (options_.max_cost && distance > *options_.max_cost) return;
-    if (!is_topologically_legal(h)) {
+    if (!is_topologically_legal(h) || !has_partners(h, collapse)) {
       ++report_.refused_topology;
       is_refused_[at(h)] = 1;
       return;
@@ -297,7 +299,7 @@ class SurfaceSimplifier {
     if (mesh_.is_border_vertex(v1)) count(last1);
     if (common != (mesh_.is_border_edge(h) ? 1 : 2) || star_.empty() || star_.size() > kMaxStar) return false;
     const std::int32_t g = mesh_.twin[at(h)];
-    return keeps_lines(h) && (g == kNone || keeps_lines(g)) && has_partners(h) && keeps_volume(h);
+    return keeps_lines(h) && (g == kNone || keeps_lines(g)) && keeps_volume(h);
   }
 
   template <class F>
@@ -324,8 +326,8 @@ class SurfaceSimplifier {
            mesh_.is_border_vertex(mesh_.destination(h)) || star_.size() > 2;
   }
 
-  bool has_partners(std::int32_t h) {
-    const int kept_end = fixed_end(h) == 1 ? 1 : 0;
+  bool has_partners(std::int32_t h, const Collapse& collapse) {
+    const int kept_end = collapse.end == 1 ? 1 : 0;
     const std::int32_t gone = kept_end == 0 ? mesh_.destination(h) : mesh_.origin[at(h)];
     const std::span<const WedgePair> pairs = wedge_pairs(h);
     bool all = true;
@@ -341,10 +343,10 @@ class SurfaceSimplifier {
     ++report_.collapses;
     const std::int32_t v0 = mesh_.origin[at(h)];
     const std::int32_t v1 = mesh_.destination(h);
-    const int end = fixed_end(h);
-    const std::int32_t kept = end == 1 ? v1 : v0;
-    const std::int32_t gone = end == 1 ? v0 : v1;
-    move_wedges(h, collapse, end);
+    const std::int32_t kept = collapse.end == 1 ? v1 : v0;
+    const std::int32_t gone = collapse.end == 1 ? v0 : v1;
+    if (history_) note(h, gone, collapse.end);
+    move_wedges(h, collapse, gone);
     carry_feature(h);
     if (mesh_.twin[at(h)] != kNone) carry_feature(mesh_.twin[at(h)]);
     n_triangles_ -= mesh_.is_border_edge(h) ? 1 : 2;
@@ -354,12 +356,36 @@ class SurfaceSimplifier {
     update_around(kept);
   }
 
-  // The wedges of the end that goes become those of the end that stays, with the attributes of the new vertex.
-  void move_wedges(std::int32_t h, const Collapse& collapse, int end) {
-    const std::int32_t gone = end == 1 ? mesh_.origin[at(h)] : mesh_.destination(h);
+  // What undoes the collapse: for each wedge that goes the triangles that change hands, and the triangles that go.
+  void note(std::int32_t h, std::int32_t gone, int end) {
+    SurfaceCollapse collapse;
+    for (const std::int32_t side : {h, mesh_.twin[at(h)]}) {
+      if (side == kNone) continue;
+      const std::int32_t first = side / 3 * 3;
+      collapse.removed.push_back(
+          {first / 3, {mesh_.wedge[at(first)], mesh_.wedge[at(first + 1)], mesh_.wedge[at(first + 2)]}});
+    }
     for (const WedgePair& pair : wedge_pairs(h)) {
-      const std::int32_t kept_wedge = end == 1 ? pair.w1 : pair.w0;
       const std::int32_t gone_wedge = end == 1 ? pair.w0 : pair.w1;
+      const std::int32_t kept_wedge = end == 1 ? pair.w1 : pair.w0;
+      if (gone_wedge == kept_wedge) continue;
+      SurfaceCollapse::Moved moved{kept_wedge, gone_wedge, {}};
+      for_each_out(mesh_, gone, [&](std::int32_t g) {
+        const bool goes = g / 3 == h / 3 || (mesh_.twin[at(h)] != kNone && g / 3 == mesh_.twin[at(h)] / 3);
+        if (!goes && mesh_.wedge[at(g)] == gone_wedge) moved.triangles.push_back(g / 3);
+      });
+      const bool is_noted = std::any_of(collapse.moved.begin(), collapse.moved.end(),
+                                        [&](const SurfaceCollapse::Moved& m) { return m.gone == gone_wedge; });
+      if (!is_noted) collapse.moved.push_back(std::move(moved));
+    }
+    history_->push_back(std::move(collapse));
+  }
+
+  // The wedges of the end that goes become those of the end that stays, with the attributes of the new vertex.
+  void move_wedges(std::int32_t h, const Collapse& collapse, std::int32_t gone) {
+    for (const WedgePair& pair : wedge_pairs(h)) {
+      const std::int32_t kept_wedge = collapse.end == 1 ? pair.w1 : pair.w0;
+      const std::int32_t gone_wedge = collapse.end == 1 ? pair.w0 : pair.w1;
       if (attributes_) {
         const std::span<const double> now = new_values(pair, collapse);
         std::copy(now.begin(), now.end(), values_.of(kept_wedge).begin());
@@ -422,6 +448,7 @@ class SurfaceSimplifier {
   WedgeValues& values_;
   const SimplifySurfaceOptions& options_;
   SimplifySurfaceReport& report_;
+  std::vector<SurfaceCollapse>* history_;
   std::unique_ptr<AttributeQuadrics> attributes_;  // null when there are none
   std::vector<Quadric<3>> geometry_;               // by vertex
   std::vector<std::uint32_t> version_;             // by the larger halfedge of an edge
@@ -436,6 +463,15 @@ class SurfaceSimplifier {
   std::vector<double> scratch_;
 };
 
+// Of the corner at the origin of h, in the input's coordinates; what has not moved is the input's to the bit.
+Vec<3> place_of(const SurfaceMesh& mesh, const Surface& input, std::int32_t h) {
+  const Vec<3>& p = mesh.position[at(mesh.origin[at(h)])];
+  const Vec<3>& before = input.position[mesh.original_vertex[at(mesh.wedge[at(h)])]];
+  if (scaled(mesh, before) == p) return before;
+  return {p[0] * mesh.extent + mesh.middle[0], p[1] * mesh.extent + mesh.middle[1],
+          p[2] * mesh.extent + mesh.middle[2]};
+}
+
 Surface surface_of(const SurfaceMesh& mesh, const WedgeValues& values, const Surface& input) {
   Surface result;
   std::vector<std::int32_t> name(mesh.original_vertex.size(), kNone);
@@ -448,9 +484,7 @@ Surface surface_of(const SurfaceMesh& mesh, const WedgeValues& values, const Sur
       if (name[at(w)] == kNone) {
         name[at(w)] = static_cast<std::int32_t>(wedges.size());
         wedges.push_back(w);
-        const Vec<3>& p = mesh.position[at(mesh.origin[at(h + k)])];
-        result.position.push_back({p[0] * mesh.extent + mesh.middle[0], p[1] * mesh.extent + mesh.middle[1],
-                                   p[2] * mesh.extent + mesh.middle[2]});
+        result.position.push_back(place_of(mesh, input, h + k));
       }
       triangle[at(k)] = static_cast<std::uint32_t>(name[at(w)]);
     }
@@ -490,16 +524,24 @@ double target_of(const SimplifySurfaceOptions& options, std::size_t n_triangles)
 
 }  // namespace
 
-Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& options,
-                         SimplifySurfaceReport& report) {
+SurfaceMesh simplified_mesh(const Surface& surface, const SimplifySurfaceOptions& options,
+                            SimplifySurfaceReport& report, WedgeValues& values,
+                            std::vector<SurfaceCollapse>* history) {
   require_sane(options);
   report = {};
   report.input_vertices = surface.position.size();
   report.input_triangles = surface.triangles.size();
   SurfaceMesh mesh = surface_mesh_of(surface, report.defects);
   mark_features(mesh, options, report);
-  WedgeValues values = wedge_values(mesh, surface);
-  SurfaceSimplifier(mesh, values, options, report).run(target_of(options, surface.triangles.size()));
+  values = wedge_values(mesh, surface);
+  SurfaceSimplifier(mesh, values, options, report, history).run(target_of(options, surface.triangles.size()));
+  return mesh;
+}
+
+Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& options,
+                         SimplifySurfaceReport& report) {
+  WedgeValues values;
+  const SurfaceMesh mesh = simplified_mesh(surface, options, report, values, nullptr);
   return surface_of(mesh, values, surface);
 }
 

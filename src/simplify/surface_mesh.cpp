@@ -67,11 +67,7 @@ void scale(SurfaceMesh& mesh, const std::vector<std::array<double, 3>>& position
   mesh.extent = extent > 0 ? extent : 1;
   for (std::size_t i = 0; i < 3; ++i) mesh.middle[i] = low[i] + (high[i] - low[i]) / 2;
   mesh.position.reserve(positions.size());
-  for (const auto& p : positions) {
-    Vec<3> q = p - mesh.middle;
-    for (double& x : q) x /= mesh.extent;
-    mesh.position.push_back(q);
-  }
+  for (const auto& p : positions) mesh.position.push_back(scaled(mesh, p));
 }
 
 // Every vertex keeps one of its wedges.
@@ -120,6 +116,12 @@ SurfaceVertexKind kind_of(const SurfaceMesh& mesh, std::int32_t v, const std::ve
 }
 
 }  // namespace
+
+Vec<3> scaled(const SurfaceMesh& mesh, const Vec<3>& p) {
+  Vec<3> q = p - mesh.middle;
+  for (double& x : q) x /= mesh.extent;
+  return q;
+}
 
 SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects) {
   ManifoldSurface pieces = manifold_of(surface, defects);

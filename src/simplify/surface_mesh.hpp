@@ -37,6 +37,9 @@ struct SurfaceMesh : Halfedges {
   double extent = 1;
 };
 
+/// A place of the input in the mesh's coordinates.
+Vec<3> scaled(const SurfaceMesh& mesh, const Vec<3>& p);
+
 /// The surface welded by place, so far as that leaves it a manifold with borders, with its defects mended and
 /// counted.
 SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects);
