@@ -11,7 +11,7 @@ namespace tinsmith {
 /// What the values at the vertices mean.
 enum class AttributeKind {
   kColour,  // r g b in [0, 1], linear in what the file stores
-  kNormal,  // x y z of unit length
+  kNormal,  // x y z of unit length; 0 0 0 where a file has none
   kScalar,  // one number of any range
 };
 
@@ -41,14 +41,15 @@ struct Surface {
 };
 
 /// Reads .ply (ascii or binary, any property types; red green blue as bytes or floats, nx ny nz, other vertex
-/// properties as scalars), .obj (v with or without colours, vn), .stl (ascii or binary: corners at the same place
-/// become one vertex) and .glb (POSITION, NORMAL, COLOR_0; node transforms applied). Polygons are cut into
-/// triangles. Throws InputError, with the place of the damage, for anything that is not a whole, valid file.
+/// properties as scalars), .obj (v with or without colours, vn; a v with two vn is split), .stl (ascii or binary:
+/// corners at the same place become one vertex) and .glb (POSITION, NORMAL, COLOR_0; node transforms applied).
+/// Polygons are cut into fans of triangles, normals brought to unit length. Throws InputError, with the place of
+/// the damage, for anything that is not a whole, valid file.
 Surface read_surface(const std::string& path);
 
 /// Writes .ply (binary little endian, doubles), .obj, .stl (binary) or .glb, aside and renamed when whole. The
 /// bytes depend on the surface only. Throws UsageError for other extensions, OutputError, and ResourceError when
-/// the format can't hold the mesh. STL holds no attributes.
+/// the format can't hold the mesh. STL holds no attributes, OBJ and GLB no scalars.
 void write_surface(const std::string& path, const Surface& surface);
 
 }  // namespace tinsmith

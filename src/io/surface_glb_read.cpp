@@ -25,7 +25,9 @@ using Vector = std::array<double, 3>;
 
 enum ComponentType { kInt8 = 5120, kUint8 = 5121, kInt16 = 5122, kUint16 = 5123, kUint32 = 5125, kFloat = 5126 };
 
-constexpr std::uint64_t kMaxJsonBytes = 1 << 26;  // a scene of 100 000 nodes has about 2^24
+// A scene of 100 000 nodes has half of it. Parsed, each byte may take twenty, and a hundred in arrays of arrays.
+constexpr std::uint64_t kMaxJsonBytes = 1 << 25;
+constexpr int kMaxJsonDepth = 64;
 // Nodes may show a mesh again and again. More vertices than this (100 MB) and than the file has bytes, which is
 // twelve times what it can hold, are no scene but an attack on memory.
 constexpr std::uint64_t kMaxUnfolded = 1 << 22;
@@ -64,25 +66,36 @@ void require_readable(const Json& json) {
   }
 }
 
-/// A glTF and its bytes.
+/// A glTF and its bytes; who made it holds them.
 struct Document {
-  Json json;
-  std::vector<char> binary;
+  const Json& json;
+  const std::vector<char>& binary;
 };
 
-Document read_document(InputFile& file) {
+Json parsed(const std::string& text) {
+  return Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
+    if (depth > kMaxJsonDepth) refuse("its JSON is nested more deeply than any scene");
+    return true;
+  });
+}
+
+Json read_json(InputFile& file) {
   read_glb_header(file);
-  const std::uint64_t json_size = read_chunk_header(file, kJsonChunk, "JSON");
-  if (json_size > kMaxJsonBytes) file.fail("has more JSON than is read: 64 MiB");
-  std::string text(json_size, ' ');
+  const std::uint64_t size = read_chunk_header(file, kJsonChunk, "JSON");
+  if (size > kMaxJsonBytes) file.fail("has more JSON than is read: 32 MiB");
+  std::string text(size, ' ');
   file.read(text.data(), text.size());
-  Document document;
-  document.json = Json::parse(text);
-  require_readable(document.json);
-  if (file.left() == 0) return document;
-  document.binary.resize(read_chunk_header(file, kBinChunk, "binary"));
-  file.read(document.binary.data(), document.binary.size());
-  return document;
+  Json json = parsed(text);
+  require_readable(json);
+  return json;
+}
+
+/// Empty when there is none. What follows it is of extensions.
+std::vector<char> read_binary(InputFile& file) {
+  if (file.left() == 0) return {};
+  std::vector<char> binary(read_chunk_header(file, kBinChunk, "binary"));
+  file.read(binary.data(), binary.size());
+  return binary;
 }
 
 // ---- accessors
@@ -166,7 +179,7 @@ Accessor accessor_of(const Document& document, const Json& number) {
 }
 
 Accessor float_vectors(const Document& document, const Json& attributes, const char* name) {
-  const Accessor accessor = accessor_of(document, attributes.at(name));
+  Accessor accessor = accessor_of(document, attributes.at(name));
   if (accessor.component_type != kFloat || accessor.type != "VEC3")
     refuse(fmt::format("{} is not three floats, and nothing else is read", name));
   return accessor;
@@ -434,9 +447,10 @@ Surface surface_of(const Document& document, std::uint64_t max_vertices) {
 Surface read_surface_glb(const std::string& path) {
   InputFile file(path);
   try {
-    const Document document = read_document(file);
-    return surface_of(document, std::min<std::uint64_t>(std::max(kMaxUnfolded, file.size()),
-                                                        std::numeric_limits<std::uint32_t>::max()));
+    const Json json = read_json(file);
+    const std::vector<char> binary = read_binary(file);
+    return surface_of({json, binary}, std::min<std::uint64_t>(std::max(kMaxUnfolded, file.size()),
+                                                              std::numeric_limits<std::uint32_t>::max()));
   } catch (const Json::exception& error) {
     file.fail(fmt::format("is no valid glTF: {}", one_line(error.what())));
   } catch (const std::invalid_argument& error) {

@@ -148,6 +148,13 @@ TEST(SurfaceGlb, SaysWhatItCannotRead) {
   });
 }
 
+TEST(SurfaceGlb, RefusesDeepJson) {
+  const ScratchFolder folder;
+  Scene scene;
+  for (int depth = 0; depth < 100; ++depth) scene.json["extras"] = Json::array({scene.json["extras"]});
+  EXPECT_NE(complaint_about(folder, ".glb", scene.bytes()).find("nested"), std::string::npos);
+}
+
 // 30 000 nodes of 30 000 vertices each would fill 30 GB.
 TEST(SurfaceGlb, RefusesScenesThatUnfoldWithoutEnd) {
   const ScratchFolder folder;
