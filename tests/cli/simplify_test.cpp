@@ -1,7 +1,7 @@
 // tinsmith simplify, as a user runs it: what can go wrong says so in one line and leaves the old file; what goes
 // well is reported.
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -15,6 +15,30 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array kExtensions{".ply", ".obj", ".stl", ".glb"};
+
+/// Ascii PLY of a cube's 12 triangles; each side has its own 4 vertices, with the side's normal.
+std::string cube_text() {
+  std::string vertices;
+  std::string triangles;
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2;
+    const int end = side % 2;
+    for (const auto& [i, j] : {std::array{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+      std::array<int, 6> line{};
+      line[axis] = end;
+      line[(axis + 1) % 3] = end == 1 ? i : j;
+      line[(axis + 2) % 3] = end == 1 ? j : i;
+      line[3 + axis] = 2 * end - 1;
+      vertices += fmt::format("{}\n", fmt::join(line, " "));
+    }
+    const int v = 4 * side;
+    triangles += fmt::format("3 {} {} {}\n3 {} {} {}\n", v, v + 1, v + 2, v, v + 2, v + 3);
+  }
+  return "ply\nformat ascii 1.0\nelement vertex 24\nproperty float x\nproperty float y\nproperty float z\n"
+         "property float nx\nproperty float ny\nproperty float nz\nelement face 12\n"
+         "property list uchar int vertex_indices\nend_header\n" +
+         vertices + triangles;
+}
 
 /// Ascii PLY of size x size vertices of a wavy sheet with colours; 2 (size - 1)^2 triangles, 4 (size - 1) border
 /// edges.
@@ -256,6 +280,19 @@ TEST_F(Simplify, DropsAttributesWhenAskedOrWhenTheFormatHasNone) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.err.find("out.stl"), std::string::npos) << "says what is lost: " << outcome.err;
   EXPECT_EQ(run({"simplify", mesh, path("out.stl"), "--ratio", "0.5", "--quiet"}).err, "");
+}
+
+TEST_F(Simplify, SeamsGoWithTheAttributes) {
+  const std::string cube = write_text("cube.ply", cube_text());
+  const json kept = report({cube, path("kept.ply"), "--ratio", "1"});
+  EXPECT_EQ(kept["vertices"], 24);
+  EXPECT_EQ(kept["feature_edges"], 12);
+  for (const char* option : {"--drop-attributes", "--no-seams"}) {
+    const json dropped = report({cube, path("dropped.ply"), "--ratio", "1", option});
+    EXPECT_EQ(dropped["vertices"], 8) << option;
+    EXPECT_EQ(dropped["feature_edges"], 0) << option;
+    EXPECT_EQ(dropped["border_edges"], 0) << option;
+  }
 }
 
 TEST_F(Simplify, MakesTheSameBytesTwice) {

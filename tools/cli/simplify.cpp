@@ -54,7 +54,7 @@ options:
   --no-seams             edges along which colours or normals differ are no features
   --feature-edges FILE   more features: text, one edge a line as two vertex numbers of the input, from 0 in the order
                          of the file; what follows # is a comment
-  --drop-attributes      read the shape only
+  --drop-attributes      the shape only: without colours, normals, other values, and seams
   --json FILE            the report as one JSON object; - prints it to standard output and nothing else
   --quiet                no progress bar, no remarks
   --verbose              every number of the report
@@ -130,7 +130,7 @@ SimplifySurfaceOptions to_options(const Flags& flags) {
   options.quadric = choose("--quadric", flags.quadric, quadrics());
   options.area_weights = !flags.no_area_weights;
   options.half_space = !flags.no_half_space;
-  options.keep_seams = !flags.no_seams;
+  options.keep_seams = !flags.no_seams && !flags.drop_attributes;  // without values, nothing differs along a seam
   if (flags.attribute_weight) options.attribute_weight = *flags.attribute_weight;
   return options;
 }

@@ -45,10 +45,9 @@ std::string count(const Json& report, const char* key) { return grouped(number(r
 
 void print_size(const Json& report) {
   const auto triangles = report["triangles"].get<double>();
-  const auto input_triangles = report["input_triangles"].get<double>();
-  const std::string times =
-      triangles > 0 ? fmt::format(", {:.4g} times fewer than", input_triangles / triangles) : ", of";
-  line("triangles", count(report, "triangles") + times + " the input's " + count(report, "input_triangles"));
+  const double times = triangles > 0 ? report["input_triangles"].get<double>() / triangles : 1;
+  const std::string than = times > 1 ? fmt::format(", {:.4g} times fewer than the input's ", times) : " of ";
+  line("triangles", count(report, "triangles") + than + count(report, "input_triangles"));
   line("vertices", count(report, "vertices") + " of " + count(report, "input_vertices"));
   line("kept lines", fmt::format("{} border edges and {} feature edges in the input", count(report, "border_edges"),
                                  count(report, "feature_edges")));
