@@ -62,11 +62,12 @@ def _n_components(nodes, links):
     if len(nodes) == 0:
         return 0
     i, j = np.searchsorted(nodes, links[:, 0]), np.searchsorted(nodes, links[:, 1])
-    return connected_components(coo_matrix((np.ones(len(i)), (i, j)), shape=(len(nodes), len(nodes))), directed=False)[0]
+    graph = coo_matrix((np.ones(len(i)), (i, j)), shape=(len(nodes), len(nodes)))
+    return connected_components(graph, directed=False)[0]
 
 
 def turned_edges(vertices, triangles):
-    """Edges at which the normals of the two triangles are more than 90 degrees apart; no-area triangles are left out."""
+    """Edges whose triangles have normals more than 90 degrees apart; triangles of no area have none."""
     edges = _edges(triangles)
     edges = edges[np.lexsort((edges[:, 1], edges[:, 0]))]
     same = (edges[1:, :2] == edges[:-1, :2]).all(axis=1)

@@ -6,6 +6,7 @@ Started by run.sh, which builds what is needed and fetches the meshes.
 
 import argparse
 import json
+import os
 import pathlib
 import shlex
 import subprocess
@@ -19,7 +20,6 @@ import plain_ply
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-import measure  # noqa: E402
 import tools  # noqa: E402
 
 TOOLS = {
@@ -31,6 +31,8 @@ TOOLS = {
     "meshopt": "{build}/peers/meshopt_surface {mesh} {n} {out}",
 }
 LIMIT = 600  # seconds for one run
+# Runs are started by a Python of their own: the kernel's peak memory of a process is never below its starter's.
+STARTER = "import json, sys, measure; print(json.dumps(measure.run(sys.argv[2:], float(sys.argv[1]))))"
 
 HEADER = ("| triangles asked | tool | triangles | Hausdorff | RMS | s | us per removed | MB | turned edges | genus "
           "| borders | parts |\n|---|---|---|---|---|---|---|---|---|---|---|---|")
@@ -56,7 +58,9 @@ def command_of(tool, options, mesh, n_triangles, out):
 
 def run_once(command):
     """What it cost: seconds of the simplification alone as the program measured them, without reading and writing."""
-    cost = measure.run(command, LIMIT)
+    starter = subprocess.run(["/usr/bin/python3", "-B", "-c", STARTER, str(LIMIT), *map(str, command)], check=True,
+                             env={**os.environ, "PYTHONPATH": str(HERE.parent)}, capture_output=True, text=True)
+    cost = json.loads(starter.stdout)
     if cost["exit_code"] != 0:
         reason = "took too long" if cost["limit_hit"] else (cost["stderr"].strip().splitlines() or ["?"])[-1]
         return {"failure": reason}
@@ -119,9 +123,9 @@ def preface(options):
     peers = ", ".join(f"{name} {version_of(package)}" for name, package in
                       (("CGAL", "libcgal-dev"), ("VTK", "python3-vtk9"), ("meshoptimizer", "libmeshoptimizer-dev")))
     return (f"tinsmith{option} and {peers}, on {m['processor']}, one thread each. Distances are symmetric, between "
-            f"{judge.N_SAMPLES} samples (for the largest one also the vertices) and the other surface, as thousandths of "
-            "the diagonal of the mesh's box, by VTK. Seconds: the simplification alone, without files. Turned edges: the "
-            "normals of the two triangles are more than 90 degrees apart.")
+            f"{judge.N_SAMPLES} samples (for the largest one also the vertices) and the other surface, as thousandths "
+            "of the diagonal of the mesh's box, by VTK. Seconds: the simplification alone, without files. Turned "
+            "edges: the normals of the two triangles are more than 90 degrees apart.")
 
 
 def main():
