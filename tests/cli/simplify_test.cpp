@@ -282,6 +282,22 @@ TEST_F(Simplify, DropsAttributesWhenAskedOrWhenTheFormatHasNone) {
   EXPECT_EQ(run({"simplify", mesh, path("out.stl"), "--ratio", "0.5", "--quiet"}).err, "");
 }
 
+TEST_F(Simplify, SaysWhichValuesTheFormatLeavesOut) {
+  const std::string mesh =
+      write_text("hot.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                 "property float heat\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "0 0 0 7\n1 0 0 8\n0 1 0 9\n3 0 1 2\n");
+  EXPECT_EQ(run({"simplify", mesh, path("out.ply")}).err, "");
+  for (const char* extension : {".obj", ".glb", ".stl"}) {
+    const std::string output = path(std::string("out") + extension);
+    const std::string remark = run({"simplify", mesh, output}).err;
+    EXPECT_TRUE(remark.starts_with("tinsmith: " + output)) << remark;
+    EXPECT_EQ(std::count(remark.begin(), remark.end(), '\n'), 1) << remark;
+    EXPECT_EQ(run({"simplify", mesh, output, "--drop-attributes"}).err, "");
+  }
+}
+
 TEST_F(Simplify, SeamsGoWithTheAttributes) {
   const std::string cube = write_text("cube.ply", cube_text());
   const json kept = report({cube, path("kept.ply"), "--ratio", "1"});

@@ -30,10 +30,10 @@ constexpr const char* kManual = R"(tinsmith simplify: any triangle mesh with few
 usage: tinsmith simplify MESH OUTPUT [options]
 
 MESH and OUTPUT are .ply, .obj, .stl or .glb; OUTPUT's format is that of its extension. Colours, normals and other
-values at the vertices are simplified together with the shape (.stl holds none). Borders and features are simplified
-along themselves; corners, where they meet or turn sharply, stay. What is wrong with the input (triangles that are
-there twice or face against their neighbours, edges with more than two triangles, ...) is counted, mended where that
-loses nothing, else kept as it is.
+values at the vertices are simplified together with the shape (.stl holds none; .obj and .glb hold colours and normals
+only). Borders and features are simplified along themselves; corners, where they meet or turn sharply, stay. What is
+wrong with the input (triangles that are there twice or face against their neighbours, edges with more than two
+triangles, ...) is counted, mended where that loses nothing, else kept as it is.
 
 when to stop, at the first that is reached; without any, when no edge can be collapsed:
   --triangles N          at most N triangles
@@ -53,7 +53,7 @@ options:
   --crease D             edges whose triangles meet at more than D degrees are features; 0 to 180 (default: none)
   --no-seams             edges along which colours or normals differ are no features
   --feature-edges FILE   more features: text, one edge a line as two vertex numbers of the input, from 0 in the order
-                         of the file; what follows # is a comment
+                         of the file (.stl: in which the places first come); what follows # is a comment
   --drop-attributes      the shape only: without colours, normals, other values, and seams
   --json FILE            the report as one JSON object; - prints it to standard output and nothing else
   --quiet                no progress bar, no remarks
@@ -161,9 +161,15 @@ void require_usable_outputs(const Flags& flags) {
   require_writable(flags.json);
 }
 
-std::vector<std::string> remarks_on(const Surface& surface, const Flags& flags) {
-  if (surface.attributes.empty() || extension_of(flags.output) != ".stl") return {};
-  return {flags.output + ": .stl holds no colours, normals or other values; they are left out"};
+/// What the format of the output can't hold of the surface.
+std::vector<std::string> remarks_on(const Surface& surface, const std::string& output) {
+  const std::string extension = extension_of(output);
+  const char* const advice = "left out; --drop-attributes leaves them out of the cost too";
+  if (extension == ".stl" && !surface.attributes.empty())
+    return {fmt::format("{}: .stl holds no colours, normals or other values; they are {}", output, advice)};
+  if ((extension == ".obj" || extension == ".glb") && surface.find(AttributeKind::kScalar) != nullptr)
+    return {fmt::format("{}: {} holds colours and normals only; other values are {}", output, extension, advice)};
+  return {};
 }
 
 Json report_of(const Flags& flags, const SimplifySurfaceReport& simplified, const Surface& result) {
@@ -196,7 +202,7 @@ int simplify_mesh(const Flags& flags) {
   if (!flags.feature_edges.empty())
     options.feature_edges = read_edge_list(flags.feature_edges, surface.position.size());
   if (flags.drop_attributes) surface.attributes.clear();
-  print_remarks(remarks_on(surface, flags), flags.quiet);
+  print_remarks(remarks_on(surface, flags.output), flags.quiet);
   options.progress = make_progress(flags.quiet, 0);
   SimplifySurfaceReport simplified;
   const double start = resources_so_far().seconds;
