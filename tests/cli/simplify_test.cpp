@@ -317,6 +317,21 @@ TEST_F(Simplify, MakesTheSameBytesTwice) {
   EXPECT_EQ(text_of(path("a.glb")), text_of(path("b.glb")));
 }
 
+TEST_F(Simplify, RestoresAProgressiveMesh) {
+  const std::string mesh = sheet(20);
+  const std::string kept = path("kept.tspm");
+  report({mesh, path("base.ply"), "--ratio", "0.1", "--progressive", kept});
+  EXPECT_EQ(report({kept, path("full.ply")})["triangles"], 2 * 19 * 19);
+  const Surface full = read_surface(path("full.ply"));
+  EXPECT_EQ(full.position, read_surface(mesh).position);
+  EXPECT_EQ(full.triangles, read_surface(mesh).triangles);
+  const json half = report({kept, path("half.ply"), "--triangles", "361"});
+  EXPECT_LE(half["triangles"], 361);
+  EXPECT_GE(half["triangles"], 359);
+  EXPECT_EQ(run({"simplify", kept, path("half.ply"), "--ratio", "0.5"}).exit_code, 2);
+  EXPECT_EQ(run({"simplify", mesh, path("base.ply"), "--progressive", path("kept.ply")}).exit_code, 2);
+}
+
 TEST_F(Simplify, WritesTheReportToAFile) {
   const Outcome outcome = run({"simplify", sheet(20), path("out.obj"), "--ratio", "0.5", "--json", path("r.json")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -19,6 +20,7 @@
 #include "simplify_summary.hpp"
 #include "text.hpp"
 #include "tinsmith/error.hpp"
+#include "tinsmith/progressive.hpp"
 #include "tinsmith/version.hpp"
 #include "verbs.hpp"
 
@@ -28,6 +30,7 @@ namespace {
 constexpr const char* kManual = R"(tinsmith simplify: any triangle mesh with fewer triangles, by edge collapse.
 
 usage: tinsmith simplify MESH OUTPUT [options]
+       tinsmith simplify MESH.tspm OUTPUT [--triangles N]   restores a progressive mesh, in full or at most so fine
 
 MESH and OUTPUT are .ply, .obj, .stl or .glb; OUTPUT's format is that of its extension. Colours, normals and other
 values at the vertices are simplified together with the shape (.stl holds none; .obj and .glb hold colours and normals
@@ -55,6 +58,8 @@ options:
   --feature-edges FILE   more features: text, one edge a line as two vertex numbers of the input, from 0 in the order
                          of the file (.stl: in which the places first come); what follows # is a comment
   --drop-attributes      the shape only: without colours, normals, other values, and seams
+  --progressive FILE     also write a progressive mesh (.tspm): every resolution between OUTPUT's and the input's can
+                         be restored from it; takes --placement subset
   --json FILE            the report as one JSON object; - prints it to standard output and nothing else
   --quiet                no progress bar, no remarks
   --verbose              every number of the report
@@ -65,6 +70,8 @@ examples:
   tinsmith simplify scan.ply small.ply --ratio 0.05
   tinsmith simplify part.stl part.glb --triangles 20000 --crease 40
   tinsmith simplify scan.ply scan_1mm.ply --max-cost 1e-6 --json report.json
+  tinsmith simplify scan.ply base.ply --ratio 0.01 --progressive scan.tspm
+  tinsmith simplify scan.tspm half.ply --triangles 100000
 
 exit codes: 0 done; 2 wrong usage; 3 an input can't be used; 4 an output can't be written; 5 memory or the format
 does not suffice; 130 interrupted. Unless the exit code is 0, what stood at OUTPUT before still stands there.
@@ -95,6 +102,7 @@ struct Flags {
   bool no_seams = false;
   std::string feature_edges;
   bool drop_attributes = false;
+  std::string progressive;
   std::string json;
   bool quiet = false;
   bool verbose = false;
@@ -148,6 +156,16 @@ void require_surface_extension(const std::string& path) {
       fmt::format("{}: '{}' is no extension of a surface; use .ply, .obj, .stl or .glb", path, extension_of(path)));
 }
 
+bool is_progressive(const std::string& path) { return extension_of(path) == ".tspm"; }
+
+void require_usable_progressive(const Flags& flags, const std::vector<std::string>& inputs) {
+  if (flags.progressive.empty()) return;
+  if (!is_progressive(flags.progressive))
+    throw UsageError(fmt::format("--progressive {}: the extension must be .tspm", flags.progressive));
+  require_other_than_inputs(flags.progressive, inputs);
+  require_writable(flags.progressive);
+}
+
 // All that can be found wrong with the outputs before the work.
 void require_usable_outputs(const Flags& flags) {
   std::vector<std::string> inputs{flags.mesh};
@@ -155,6 +173,7 @@ void require_usable_outputs(const Flags& flags) {
   require_surface_extension(flags.output);
   require_other_than_inputs(flags.output, inputs);
   require_writable(flags.output);
+  require_usable_progressive(flags, inputs);
   if (flags.json.empty() || flags.json == "-") return;
   require_other_than_inputs(flags.json, inputs);
   require_other_than_inputs(flags.json, {flags.output});
@@ -195,7 +214,35 @@ Json report_of(const Flags& flags, const SimplifySurfaceReport& simplified, cons
   return report;
 }
 
+int restore_mesh(const Flags& flags) {
+  const SimplifySurfaceOptions& o = flags.options;
+  if (o.ratio || o.max_cost || o.crease || !flags.progressive.empty())
+    throw UsageError(fmt::format(
+        "{}: a progressive mesh is restored, not simplified; give --triangles N or nothing", flags.mesh));
+  require_ranges(flags);
+  require_usable_outputs(flags);
+  const double triangles = o.triangles.value_or(std::numeric_limits<double>::infinity());
+  const Surface result = restore(read_progressive(flags.mesh, triangles), triangles);
+  print_remarks(remarks_on(result, flags.output), flags.quiet);
+  write_surface(flags.output, result);
+  const Json report = report_of(flags, {}, result);
+  if (!flags.json.empty()) write_json(report, flags.json);
+  if (flags.json != "-")
+    fmt::print("{}: {} triangles, {} vertices\n", flags.output, result.triangles.size(), result.position.size());
+  return 0;
+}
+
+// And keeps how it was done, if asked for.
+Surface simplified_surface(const Surface& surface, const SimplifySurfaceOptions& options, const Flags& flags,
+                           SimplifySurfaceReport& report) {
+  if (flags.progressive.empty()) return simplify_surface(surface, options, report);
+  const ProgressiveSurface progressive = make_progressive(surface, options, report);
+  write_progressive(flags.progressive, progressive);
+  return restore(progressive, 0);
+}
+
 int simplify_mesh(const Flags& flags) {
+  if (is_progressive(flags.mesh)) return restore_mesh(flags);
   SimplifySurfaceOptions options = to_options(flags);
   require_usable_outputs(flags);
   Surface surface = read_surface(flags.mesh);
@@ -206,7 +253,7 @@ int simplify_mesh(const Flags& flags) {
   options.progress = make_progress(flags.quiet, 0);
   SimplifySurfaceReport simplified;
   const double start = resources_so_far().seconds;
-  const Surface result = simplify_surface(surface, options, simplified);
+  const Surface result = simplified_surface(surface, options, flags, simplified);
   const double end = resources_so_far().seconds;
   options.progress = {};  // ends the line of the bar
   write_surface(flags.output, result);
@@ -232,6 +279,7 @@ void add_simplify(CLI::App& program, Run& run) {
   verb.add_flag("--no-area-weights", flags->no_area_weights);
   verb.add_flag("--no-half-space", flags->no_half_space);
   verb.add_option("--quadric", flags->quadric);
+  verb.add_option("--progressive", flags->progressive);
   verb.add_option("--attribute-weight", flags->attribute_weight);
   verb.add_option("--crease", flags->options.crease);
   verb.add_flag("--no-seams", flags->no_seams);
