@@ -13,20 +13,32 @@ namespace tinsmith {
 struct LinkSide {
   Vec<3> a;
   Vec<3> b;
+  Vec<3> before;  // where the vertex of its triangle was
 };
 
-/// Whether v lies strictly inside the half-space of every side. Border sides are left out by the caller.
+/// Whether v lies strictly inside the half-space of every side; border sides are left out by the caller. A side
+/// that its old vertex was not inside of either, over the old average plane, is excused so long as its triangle
+/// turns by no more than a right angle: rough surfaces are no height fields over any plane, and triangles without
+/// area have no side.
 inline bool is_inside_half_spaces(std::span<const LinkSide> link, const Vec<3>& v) {
-  // Eq. 12: the sum of the triangles' normals, each as long as twice its area.
+  // Eq. 12: the sums of the triangles' normals, each as long as twice its area.
   Vec<3> n{};
+  Vec<3> n_before{};
   for (const LinkSide& side : link) {
     const Vec<3> normal = cross(side.a - v, side.b - v);
-    for (std::size_t i = 0; i < 3; ++i) n[i] += normal[i];
+    const Vec<3> normal_before = cross(side.a - side.before, side.b - side.before);
+    for (std::size_t i = 0; i < 3; ++i) {
+      n[i] += normal[i];
+      n_before[i] += normal_before[i];
+    }
   }
   // Eq. 16-24 in the basis (b1, b2) of the plane come to this: L_j(0, 0) = x_j y_{j+1} - x_{j+1} y_j is the
   // component along n of a_j x b_j, for any orthonormal basis with b1 x b2 = n.
   for (const LinkSide& side : link) {
-    if (!(dot(cross(side.a - v, side.b - v), n) > 0)) return false;
+    const Vec<3> normal = cross(side.a - v, side.b - v);
+    if (dot(normal, n) > 0) continue;
+    const Vec<3> normal_before = cross(side.a - side.before, side.b - side.before);
+    if (dot(normal_before, n_before) > 0 || dot(normal, normal_before) < 0) return false;
   }
   return true;
 }

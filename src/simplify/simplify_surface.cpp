@@ -309,7 +309,8 @@ class SurfaceSimplifier {
       const std::int32_t a = mesh_.destination(g);
       last = mesh_.origin[at(Halfedges::previous(g))];
       f(a);
-      if (a != other && last != other) star_.push_back({mesh_.position[at(a)], mesh_.position[at(last)]});
+      if (a != other && last != other)
+        star_.push_back({mesh_.position[at(a)], mesh_.position[at(last)], mesh_.position[at(v)]});
     });
     return last;
   }

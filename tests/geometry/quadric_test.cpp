@@ -92,7 +92,7 @@ TEST(Quadric, OfThreeEqualValuesIsThatOfAPoint) {
 std::vector<LinkSide> square() {
   const std::array<Vec<3>, 4> p{Vec<3>{1, 1, 0}, Vec<3>{-1, 1, 0}, Vec<3>{-1, -1, 0}, Vec<3>{1, -1, 0}};
   std::vector<LinkSide> link;
-  for (std::size_t i = 0; i < 4; ++i) link.push_back({p[i], p[(i + 1) % 4]});
+  for (std::size_t i = 0; i < 4; ++i) link.push_back({p[i], p[(i + 1) % 4], {0, 0, 0}});
   return link;
 }
 
@@ -101,6 +101,15 @@ TEST(HalfSpaceTest, AllowsTheInsideOfTheLinkOnly) {
   EXPECT_TRUE(is_inside_half_spaces(square(), {0.9, -0.9, 0.1}));
   EXPECT_FALSE(is_inside_half_spaces(square(), {1, 0, 0}));  // strictly
   EXPECT_FALSE(is_inside_half_spaces(square(), {1.1, 0, 0}));
+}
+
+// A triangle that lay wrong before may stay so, but must not turn over.
+TEST(HalfSpaceTest, ExcusesWhatLayWrongBefore) {
+  std::vector<LinkSide> link = square();
+  EXPECT_FALSE(is_inside_half_spaces(link, {1.1, 0, 0}));
+  link[3].before = {1.2, 0, 0};  // the right side
+  EXPECT_TRUE(is_inside_half_spaces(link, {1.1, 0, 0}));
+  EXPECT_FALSE(is_inside_half_spaces(link, {0, 1.1, 0}));  // the upper side is not excused
 }
 
 // At a border the link is an open chain: what lies beyond the missing sides is allowed.
