@@ -34,7 +34,7 @@ template <class L>
 TINSMITH_INLINE TriangleError error_of(const HeightGrid& samples, const Corner& a, const Corner& b,
                                        const Corner& c) {
   ErrorSweep<L> sweep(samples, a.height);
-  sweep_triangle<L>(sweep.samples, a.position, b, c, a.height, sweep);
+  sweep_triangle<L>(sweep.samples, a, b, c, sweep);
   TriangleError result;
   result.largest = sweep.largest.largest();
   result.worst =

@@ -93,13 +93,14 @@ struct Four {
 };
 
 // Calls add(triangle, four) for fours that together hold every sample in or on the triangle (p, a, b) once, and
-// others.
+// others. Heights are taken relative to that of the corner p.
 template <class L, class F>
-TINSMITH_INLINE void sweep_triangle(const SampleRows& samples, LatticePoint p, const Corner& corner_a,
-                                    const Corner& corner_b, double reference, F& add) {
+TINSMITH_INLINE void sweep_triangle(const SampleRows& samples, const Corner& corner_p, const Corner& corner_a,
+                                    const Corner& corner_b, F& add) {
+  const LatticePoint p = corner_p.position;
   const LatticePoint a = corner_a.position;
   const LatticePoint b = corner_b.position;
-  const SweptTriangle t(p, corner_a, corner_b, reference);
+  const SweptTriangle t(p, corner_a, corner_b, corner_p.height);
   const std::int32_t first_row = ceil_cell(std::min({p.y, a.y, b.y}));
   const std::int32_t last_row = floor_cell(std::max({p.y, a.y, b.y}));
   const std::int32_t first = ceil_cell(std::min({p.x, a.x, b.x}));

@@ -20,7 +20,9 @@ class StarSweep {
   TINSMITH_INLINE StarSweep(const Bound& bound, LatticePoint p)
       : samples_(bound.samples), tolerance_(bound.tolerance), reference_(bound.reference), p_(p) {}
 
-  TINSMITH_INLINE void add(const Side& side) { sweep_triangle<L>(samples_, p_, side.a, side.b, reference_, *this); }
+  TINSMITH_INLINE void add(const Side& side) {
+    sweep_triangle<L>(samples_, {p_, reference_}, side.a, side.b, *this);
+  }
 
   TINSMITH_INLINE bool is_empty() const { return lowest_.largest() > highest_.smallest(); }
 

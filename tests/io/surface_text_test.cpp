@@ -155,7 +155,7 @@ TEST(SurfaceObj, RefusesIndicesThatAreNotThere) {
   EXPECT_NE(complaint_about(folder, ".obj", vertices).find("has no triangles"), std::string::npos);
 }
 
-const char* const kTetrahedron =
+const char* const tetrahedron =
     "solid  a name\n"
     "  FACET NORMAL 0 0 -1\n outer loop\n vertex 0 0 0\n vertex 0 1 0\n vertex 1 0 0\n endloop\n endfacet\n"
     "facet normal nan nan nan\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1e0\nendloop\nendfacet\n"
@@ -166,12 +166,12 @@ const char* const kTetrahedron =
 
 TEST(SurfaceStl, ReadsText) {
   const ScratchFolder folder;
-  const Surface surface = read_bytes(folder, ".stl", kTetrahedron);
+  const Surface surface = read_bytes(folder, ".stl", tetrahedron);
   EXPECT_EQ(surface.position.size(), 4U) << "-0 and 0 are the same place";
   EXPECT_EQ(surface.triangles.size(), 4U);
   EXPECT_NEAR(six_volumes(surface), 1, 1e-12);
   for (const char* end : {"endloop\nendfacet\nendsolid\n", "endfacet\nendsolid\n", "endsolid\n", "vertex 1 1 1\n"})
-    EXPECT_NE(complaint_about(folder, ".stl", std::string(kTetrahedron) + end), "") << end;
+    EXPECT_NE(complaint_about(folder, ".stl", std::string(tetrahedron) + end), "") << end;
 }
 
 // Programs exist that write "solid" into the head of binary files.

@@ -44,7 +44,7 @@ Surface drawing(std::size_t n_vertices, Triangles triangles) {
   return with_gradient_colour(with_numbers(std::move(s)));
 }
 
-const Triangles kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+const Triangles tetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
 struct Mended {
   SurfaceDefects defects;
@@ -133,11 +133,11 @@ TEST(SurfaceDefinition, CleanSurfaceComesBackUnchanged) {
 TEST(SurfaceDefinition, SameVerticesAgainAreRemovedInAnyOrder) {
   Triangle again{0, 1, 3};
   do {
-    Surface s = drawing(4, kTetrahedron);
+    Surface s = drawing(4, tetrahedron);
     s.triangles.push_back(again);
     const auto [defects, result] = mend(s);
     expect_defects(defects, only(&SurfaceDefects::duplicated_triangles, 1));
-    expect_same(result.surface, drawing(4, kTetrahedron));
+    expect_same(result.surface, drawing(4, tetrahedron));
     EXPECT_EQ(locked_originals(result), Numbers{});
   } while (std::next_permutation(again.begin(), again.end()));
   const auto [defects, result] = mend(drawing(3, {{2, 1, 0}, {0, 1, 2}, {1, 0, 2}, {2, 1, 0}}));
@@ -149,7 +149,7 @@ TEST(SurfaceDefinition, TrianglesWithVertexTwiceAreRemoved) {
   const auto [defects, result] =
       mend(drawing(4, {{1, 1, 2}, {0, 2, 1}, {0, 1, 3}, {3, 0, 3}, {1, 2, 3}, {2, 0, 3}, {1, 2, 2}, {3, 3, 3}}));
   expect_defects(defects, only(&SurfaceDefects::degenerate_triangles, 4));
-  expect_same(result.surface, drawing(4, kTetrahedron));
+  expect_same(result.surface, drawing(4, tetrahedron));
 }
 
 TEST(SurfaceDefinition, AllDegenerateLeavesNothing) {
@@ -191,7 +191,7 @@ TEST(SurfaceDefinition, EdgeWithThreeTrianglesIsCutApartAndLocked) {
 
 // The fin is cut off; the sphere stays whole, as its triangles at the edge are still the ends of one fan.
 TEST(SurfaceDefinition, SphereWithFinStaysClosed) {
-  Surface s = drawing(5, kTetrahedron);
+  Surface s = drawing(5, tetrahedron);
   s.triangles.push_back({0, 1, 4});
   const auto [defects, result] = mend(s);
   expect_defects(defects, only(&SurfaceDefects::non_manifold_edges, 1));
@@ -211,8 +211,8 @@ TEST(SurfaceDefinition, BowTieVertexIsCutApartAndLocked) {
 }
 
 TEST(SurfaceDefinition, ClosedSurfacesThatTouchAtVertexAreCutApart) {
-  Surface s = drawing(7, kTetrahedron);
-  for (const Triangle& t : kTetrahedron) s.triangles.push_back({t[0] + 3, t[1] + 3, t[2] + 3});
+  Surface s = drawing(7, tetrahedron);
+  for (const Triangle& t : tetrahedron) s.triangles.push_back({t[0] + 3, t[1] + 3, t[2] + 3});
   const auto [defects, result] = mend(s);
   expect_defects(defects, only(&SurfaceDefects::non_manifold_vertices, 1));
   EXPECT_TRUE(is_closed_manifold(result.surface));
@@ -221,8 +221,8 @@ TEST(SurfaceDefinition, ClosedSurfacesThatTouchAtVertexAreCutApart) {
 }
 
 TEST(SurfaceDefinition, PiecesMayBeWoundDifferently) {
-  Surface s = drawing(8, kTetrahedron);
-  for (const Triangle& t : kTetrahedron) s.triangles.push_back({t[0] + 4, t[2] + 4, t[1] + 4});
+  Surface s = drawing(8, tetrahedron);
+  for (const Triangle& t : tetrahedron) s.triangles.push_back({t[0] + 4, t[2] + 4, t[1] + 4});
   const auto [defects, result] = mend(s);
   expect_defects(defects, {});
   expect_same(result.surface, s);
@@ -282,7 +282,7 @@ TEST(SurfaceDefinition, UnreferencedVerticesAreRemoved) {
 
 TEST(SurfaceDefinition, WhatIsNoSurfaceIsRefused) {
   SurfaceDefects defects;
-  const Surface s = drawing(4, kTetrahedron);
+  const Surface s = drawing(4, tetrahedron);
   Surface bad = s;
   bad.triangles[2][1] = 4;
   EXPECT_THROW(manifold_of(bad, defects), InputError);

@@ -137,10 +137,9 @@ TEST(SimplifySurface, SubsetPlacementKeepsVerticesWithTheirAttributes) {
   };
   std::vector<Vertex> given = vertices(surface);
   for (const auto& [position, colour] : vertices(result)) {
-    const bool is_given =
-        std::any_of(given.begin(), given.end(), [&, p = position, c = colour](const Vertex& other) {
-          return other.first == p && other.second == c;
-        });
+    const bool is_given = std::any_of(
+        given.begin(), given.end(),
+        [&, p = position, c = colour](const Vertex& other) { return other.first == p && other.second == c; });
     EXPECT_TRUE(is_given);
   }
 }
