@@ -174,7 +174,7 @@ def cross_checks(cases):
         judged = verdict(case, "delatin")
         if second and judged:
             own = second[0]["own"]
-            differences += [abs(own[key] / judged[key] - 1) for key in ("max_error", "rmse")]
+            differences += [abs(own[key] - judged[key]) / (judged[key] or 1) for key in ("max_error", "rmse")]
     return differences
 
 
