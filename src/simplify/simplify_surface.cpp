@@ -25,8 +25,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Planes through border and feature edges, perpendicular to their triangles, weigh that much of the squared length.
 constexpr double kFeatureWeight = 1;
 
-// More triangles than this around one vertex are slow to walk.
-constexpr std::size_t kMaxStar = 128;
+constexpr std::size_t kMaxStar = 128;  // triangles around one vertex; more are slow to walk
 
 Vec<3> along(const Vec<3>& a, const Vec<3>& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
@@ -464,46 +463,6 @@ class SurfaceSimplifier {
   std::vector<double> scratch_;
 };
 
-// Of the corner at the origin of h, in the input's coordinates; what has not moved is the input's to the bit.
-Vec<3> place_of(const SurfaceMesh& mesh, const Surface& input, std::int32_t h) {
-  const Vec<3>& p = mesh.position[at(mesh.origin[at(h)])];
-  const Vec<3>& before = input.position[mesh.original_vertex[at(mesh.wedge[at(h)])]];
-  if (scaled(mesh, before) == p) return before;
-  return {p[0] * mesh.extent + mesh.middle[0], p[1] * mesh.extent + mesh.middle[1],
-          p[2] * mesh.extent + mesh.middle[2]};
-}
-
-Surface surface_of(const SurfaceMesh& mesh, const WedgeValues& values, const Surface& input) {
-  Surface result;
-  std::vector<std::int32_t> name(mesh.original_vertex.size(), kNone);
-  std::vector<std::int32_t> wedges;
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
-    if (mesh.origin[at(h)] == kNone) continue;
-    std::array<std::uint32_t, 3> triangle{};
-    for (std::int32_t k = 0; k < 3; ++k) {
-      const std::int32_t w = mesh.wedge[at(h + k)];
-      if (name[at(w)] == kNone) {
-        name[at(w)] = static_cast<std::int32_t>(wedges.size());
-        wedges.push_back(w);
-        result.position.push_back(place_of(mesh, input, h + k));
-      }
-      triangle[at(k)] = static_cast<std::uint32_t>(name[at(w)]);
-    }
-    result.triangles.push_back(triangle);
-  }
-  for (std::size_t i = 0; i < values.blocks.size(); ++i) {
-    const WedgeValues::Block& block = values.blocks[i];
-    SurfaceAttribute out{block.kind, input.attributes[i].name, {}};
-    for (const std::int32_t w : wedges) {
-      const auto n = static_cast<std::size_t>(out.components());
-      for (const double x : values.of(w).subspan(block.offset, n))
-        out.values.push_back(static_cast<float>(block.lowest + block.range * x));
-    }
-    result.attributes.push_back(std::move(out));
-  }
-  return result;
-}
-
 void require_sane(const SimplifySurfaceOptions& options) {
   if (options.triangles && !(*options.triangles >= 0))
     throw UsageError("the number of triangles must be 0 or more");
@@ -537,13 +496,6 @@ SurfaceMesh simplified_mesh(const Surface& surface, const SimplifySurfaceOptions
   values = wedge_values(mesh, surface);
   SurfaceSimplifier(mesh, values, options, report, history).run(target_of(options, surface.triangles.size()));
   return mesh;
-}
-
-Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& options,
-                         SimplifySurfaceReport& report) {
-  WedgeValues values;
-  const SurfaceMesh mesh = simplified_mesh(surface, options, report, values, nullptr);
-  return surface_of(mesh, values, surface);
 }
 
 }  // namespace tinsmith
