@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "io/glb.hpp"
 #include "io/obj.hpp"
@@ -85,6 +86,23 @@ Tin read_mesh(const std::string& path) {
   Tin tin = format->read(path);
   require_sound(path, tin);
   return tin;
+}
+
+std::string visit_mesh(const std::string& path, const MeshVisitor& visitor) {
+  constexpr std::size_t kBlock = 4096;
+  const Tin tin = read_mesh(path);
+  const std::span<const std::array<double, 3>> vertices(tin.vertices);
+  for (std::size_t i = 0; i < vertices.size(); i += kBlock)
+    visitor.vertices(vertices.subspan(i, std::min(kBlock, vertices.size() - i)));
+  std::vector<std::array<std::uint64_t, 3>> block;
+  for (std::size_t t = 0; t < tin.triangles.size(); ++t) {
+    const auto& [a, b, c] = tin.triangles[t];
+    block.push_back({a, b, c});
+    if (block.size() < kBlock && t + 1 < tin.triangles.size()) continue;
+    visitor.triangles(block);
+    block.clear();
+  }
+  return tin.crs_wkt;
 }
 
 }  // namespace tinsmith

@@ -1,6 +1,10 @@
 #pragma once
 // Mesh files by extension: .ply .obj .glb .2dm. One format has one source file each, ply.cpp, obj.cpp, ...
 
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 
 #include "geodesy/grid_frame.hpp"
@@ -29,5 +33,15 @@ void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFram
 /// (GLB: undoing the node's transform and the metres that its extras declare). Throws InputError, with the
 /// place of the damage, for anything that is not a whole, valid file: never crashes on garbage.
 Tin read_mesh(const std::string& path);
+
+/// The same block by block, for meshes that need not fit in memory: all vertices in their order, then all
+/// triangles in theirs. Everything is checked as read_mesh checks it, when its turn comes.
+struct MeshVisitor {
+  std::function<void(std::span<const std::array<double, 3>>)> vertices;
+  std::function<void(std::span<const std::array<std::uint64_t, 3>>)> triangles;
+};
+
+/// Returns the CRS as WKT, empty when unknown.
+std::string visit_mesh(const std::string& path, const MeshVisitor& visitor);
 
 }  // namespace tinsmith

@@ -1,8 +1,10 @@
 #pragma once
-// The finished surface of a grid: an indexed triangle mesh on the lattice.
+// The finished surface of a grid: triangles on the lattice, whole in memory or gone through block by block.
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "geometry/lattice.hpp"
@@ -15,6 +17,52 @@ struct TerrainMesh {
   std::vector<LatticePoint> position;
   std::vector<double> height;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct TerrainVertex {
+  LatticePoint position;
+  double height = 0;  // vertical unit of the input
+};
+
+/// What a writer must know before the first vertex.
+struct TerrainExtent {
+  std::uint64_t n_vertices = 0;
+  std::uint64_t n_triangles = 0;
+  LatticePoint low;  // over all vertices; without meaning when there are none
+  LatticePoint high;
+  double lowest = 0;
+  double highest = 0;
+};
+
+/// A finished surface that need not be in memory: it can be gone through any number of times, in blocks of some
+/// thousand, in the same order each time. Triangles name vertices by their number in that order.
+class TerrainSurface {
+ public:
+  using VertexBlock = std::span<const TerrainVertex>;
+  using TriangleBlock = std::span<const std::array<std::uint64_t, 3>>;
+
+  TerrainSurface() = default;
+  TerrainSurface(const TerrainSurface&) = delete;
+  TerrainSurface& operator=(const TerrainSurface&) = delete;
+  virtual ~TerrainSurface() = default;
+
+  virtual const TerrainExtent& extent() const = 0;
+  virtual void for_each_vertex_block(const std::function<void(VertexBlock)>& visit) const = 0;
+  virtual void for_each_triangle_block(const std::function<void(TriangleBlock)>& visit) const = 0;
+};
+
+/// A mesh in memory, which must outlive it, as a surface.
+class MeshSurface : public TerrainSurface {
+ public:
+  explicit MeshSurface(const TerrainMesh& mesh);
+
+  const TerrainExtent& extent() const override { return extent_; }
+  void for_each_vertex_block(const std::function<void(VertexBlock)>& visit) const override;
+  void for_each_triangle_block(const std::function<void(TriangleBlock)>& visit) const override;
+
+ private:
+  const TerrainMesh& mesh_;
+  TerrainExtent extent_;
 };
 
 }  // namespace tinsmith
