@@ -55,6 +55,10 @@ class HeightField {
   /// The samples of any rectangle; what lies outside the field is void. May be called by several threads.
   /// Throws InputError when the samples can't be read.
   virtual HeightGrid read(const GridRect& rect) const = 0;
+
+  /// Whether all samples of the rectangle are known to be void without reading any: false means that they are or
+  /// are not. What makes a raster of 90 billion samples cheap when next to nothing of it is there.
+  virtual bool is_surely_void(const GridRect& /*rect*/) const { return false; }
 };
 
 }  // namespace tinsmith
