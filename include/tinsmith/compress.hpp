@@ -22,8 +22,8 @@ struct CompressReport {
   std::uint64_t windows = 0;                   // of round 0
   std::uint64_t start_triangles = 0;           // after select and triangulate
   std::vector<std::uint64_t> round_triangles;  // after each round
-  std::vector<double> round_seconds;
-  std::vector<std::string> remarks;  // what the user should be told once
+  std::vector<double> round_seconds;           // spent in the tasks of the round, all threads added up
+  std::vector<std::string> remarks;            // what the user should be told once
 };
 
 /// Reads the rasters as one grid, compresses them and writes `output` (.ply .obj .glb .2dm). The bytes

@@ -2,6 +2,7 @@
 // What a caller may choose. Every field has its default, unit and meaning on its line.
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -41,9 +42,12 @@ struct CompressOptions {
   std::optional<double> ratio;      // the same as a fraction (0 to 1] of the full grid's triangles
   Placement placement = Placement::kOptimal;
   Effort effort = Effort::kDefault;
-  int window = 256;   // samples along a window's side; may change the result, never its guarantees
-  int threads = 0;    // 0: as many as the machine has; never changes the result
-  Progress progress;  // empty: silent
+  int window = 256;          // samples along a window's side; may change the result, never its guarantees
+  int threads = 0;           // 0: as many as the machine has; never changes the result
+  std::uint64_t memory = 0;  // bytes for the whole process; 0: a quarter of the machine's; never changes the result
+  std::string tmp;           // folder for unfinished work; empty: beside the output; never changes the result
+  bool fresh = false;        // throw away the unfinished work of another run on the same output
+  Progress progress;         // empty: silent
 };
 
 }  // namespace tinsmith

@@ -6,14 +6,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 
+#include "io/input_identity.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
 #include "pipeline/rounds.hpp"
+#include "pipeline/run_folder.hpp"
 #include "pipeline/search.hpp"
 #include "samples/array_field.hpp"
+#include "stitch/welded_surface.hpp"
+#include "tile/chunk_store.hpp"
 #include "tinsmith/error.hpp"
+#include "tinsmith/version.hpp"
 
 namespace tinsmith {
 
@@ -55,6 +62,13 @@ std::array<double, 2> height_range(const HeightField& field) {
   return {low, high};
 }
 
+// What is compressed, and where it goes; no output: to the caller.
+struct Target {
+  const HeightField& field;
+  const GridFrame& frame;
+  std::string output;
+};
+
 // How much the format may change a height of the result, in vertical units. Vertices keep to the heights of the
 // samples, give or take the tolerance; the format may put its origin on a whole number.
 double rounding_of_format(const HeightField& field, const std::string& output, double tolerance) {
@@ -70,28 +84,67 @@ double rounding_of_format(const HeightField& field, const std::string& output, d
   return rounding;
 }
 
-void require_triangles(const TerrainMesh& surface) {
-  if (surface.triangles.empty())
+void require_triangles(const TerrainSurface& surface) {
+  if (surface.extent().n_triangles == 0)
     throw InputError(
         "the input has no 2 x 2 block of valid samples, so there is no surface; check --nodata, --band and --bbox");
 }
 
+// Where each attempt keeps its work: by its tolerance.
+using FolderOf = std::function<std::string(double tolerance)>;
+
 // Tolerances here are in the vertical unit of the field.
-TerrainMesh compress_field(const HeightField& field, const GridFrame& frame, const std::string& output,
-                           const CompressOptions& options, CompressReport& report) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, thread_count(options));
-  const double unit = frame.metres_per_vertical_unit;
+std::shared_ptr<const TerrainSurface> compress_field(const Target& target, const CompressOptions& options,
+                                                     const FolderOf& folder_of, CompressReport& report) {
+  const double unit = target.frame.metres_per_vertical_unit;
   const auto run = [&](double tolerance, CompressReport& of_run) {
-    const double rounding = rounding_of_format(field, output, tolerance);
-    TerrainMesh surface =
-        run_rounds(field, frame, {tolerance - rounding, options.window, options.placement, options.effort},
-                   options.progress, of_run);
-    require_triangles(surface);
+    const double rounding = rounding_of_format(target.field, target.output, tolerance);
+    const RoundsOptions rounds{tolerance - rounding, options.window, options.placement, options.effort,
+                               folder_of(tolerance)};
+    auto surface = run_rounds(target.field, target.frame, rounds, options.progress, of_run);
+    require_triangles(*surface);
     of_run.tolerance = tolerance * unit;
     return surface;
   };
   if (options.max_error) return run(*options.max_error / unit, report);
   return search_tolerance(run, options.triangles, options.ratio, report);
+}
+
+std::string optional_line(const char* name, const std::optional<double>& value) {
+  return value ? fmt::format("{}: {}", name, *value) : fmt::format("{}: none", name);
+}
+
+Identity identity_of(const std::vector<std::string>& inputs, const InputOptions& input_options,
+                     const CompressOptions& options, const Target& target) {
+  Identity lines{fmt::format("tinsmith: {}", version()),
+                 optional_line("max error", options.max_error),
+                 optional_line("triangles", options.triangles),
+                 optional_line("ratio", options.ratio),
+                 fmt::format("window: {}", options.window),
+                 fmt::format("placement: {}", static_cast<int>(options.placement)),
+                 fmt::format("effort: {}", static_cast<int>(options.effort)),
+                 fmt::format("output: {}", target.output)};
+  for (std::string& line : input_identity(inputs, input_options, target.field)) lines.push_back(std::move(line));
+  return lines;
+}
+
+// A chunk that is found damaged only now is computed anew, and writing starts again.
+void compress_and_write(const Target& target, const CompressOptions& options, const RunFolder& folder,
+                        CompressReport& report) {
+  constexpr int kMostRestarts = 10;
+  const FolderOf folder_of = [&](double tolerance) {
+    return folder.subfolder(fmt::format("tolerance-{:a}", tolerance));
+  };
+  for (int restarts = 0;; ++restarts) {
+    const auto surface = compress_field(target, options, folder_of, report);
+    try {
+      write_mesh(target.output, mesh_of(*surface), target.frame);
+      return;
+    } catch (const DamagedChunk& damage) {
+      if (restarts == kMostRestarts) throw OutputError(std::string(damage.what()) + "; choose another --tmp");
+      report.remarks.push_back(std::string(damage.what()) + "; computed anew");
+    }
+  }
 }
 
 }  // namespace
@@ -100,30 +153,41 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
                         const InputOptions& input_options, const CompressOptions& options) {
   require_sensible(options);
   require_mesh_extension(output);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, thread_count(options));
   const RasterField field(inputs, input_options);
+  const Target target{field, field.frame(), output};
+  RunFolder folder(output, options.tmp, identity_of(inputs, input_options, options, target), options.fresh);
   CompressReport report;
-  const TerrainMesh surface = compress_field(field, field.frame(), output, options, report);
-  report.remarks = field.remarks();
-  write_mesh(output, surface, field.frame());
+  try {
+    compress_and_write(target, options, folder, report);
+  } catch (const ResultError&) {
+    folder.remove();
+    throw;
+  }
+  folder.remove();
+  report.remarks.insert(report.remarks.begin(), field.remarks().begin(), field.remarks().end());
   if (options.progress) options.progress(1, "write");
   return report;
 }
 
 Tin compress(const HeightArray& heights, const CompressOptions& options, CompressReport* report) {
   require_sensible(options);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, thread_count(options));
   const ArrayField field(heights.z, heights.width, heights.height);
   GridFrame frame;
   frame.geotransform = {-heights.step_x / 2, heights.step_x, 0, -heights.step_y / 2, 0, heights.step_y};
   CompressReport own;
-  const TerrainMesh surface = compress_field(field, frame, {}, options, report ? *report : own);
+  const auto surface = compress_field(
+      {field, frame, {}}, options, [](double) { return std::string(); }, report ? *report : own);
   Tin tin;
-  for (std::size_t v = 0; v < surface.position.size(); ++v) {
-    const LatticePoint p = surface.position[v];
-    const auto [x, y] =
-        frame.to_crs(static_cast<double>(p.x) / kLatticePerCell, static_cast<double>(p.y) / kLatticePerCell);
-    tin.vertices.push_back({x, y, surface.height[v]});
-  }
-  tin.triangles = surface.triangles;
+  surface->for_each_vertex_block([&](TerrainSurface::VertexBlock block) {
+    for (const auto& [p, height] : block) {
+      const auto [x, y] =
+          frame.to_crs(static_cast<double>(p.x) / kLatticePerCell, static_cast<double>(p.y) / kLatticePerCell);
+      tin.vertices.push_back({x, y, height});
+    }
+  });
+  tin.triangles = mesh_of(*surface).triangles;
   return tin;
 }
 

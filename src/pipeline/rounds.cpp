@@ -1,21 +1,26 @@
 #include "pipeline/rounds.hpp"
 
-#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <string>
 #include <utility>
+#include <vector>
 
+#include "pipeline/window_queue.hpp"
+#include "stitch/welded_surface.hpp"
 #include "stitch/window_task.hpp"
-#include "tile/chunk.hpp"
-#include "tile/windows.hpp"
+#include "tile/chunk_store.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
 
 namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Stopwatch {
  public:
@@ -30,144 +35,186 @@ class Stopwatch {
 // Part of the whole run that each round takes, for the progress; measured on mountains at 10 m.
 constexpr std::array<double, kRounds> kShare{0.9, 0.06, 0.04};
 
-// Counts finished windows of a round and tells the caller; one thread at a time.
-class RoundProgress {
- public:
-  RoundProgress(const Progress& progress, int round, std::int64_t n_windows)
-      : progress_(progress), round_(static_cast<std::size_t>(round)), n_windows_(n_windows) {
-    for (std::size_t r = 0; r < round_; ++r) before_ += kShare[r];
-  }
+// How often a run begins anew, from what is whole, because a chunk was found damaged: then the disk is no good.
+constexpr int kMostRestarts = 100;
 
-  void window_done() {
-    const std::int64_t done = ++done_;
-    if (!progress_) return;
-    const std::lock_guard lock(mutex_);
-    told_ = std::max(told_, done);
-    const double fraction = before_ + kShare[round_] * static_cast<double>(told_) / static_cast<double>(n_windows_);
-    if (!progress_(fraction, round_ == 0 ? "simplify" : "stitch"))
-      throw Interrupted("interrupted; nothing was written");
-  }
+// The surface and all that it is made of.
+struct Finished {
+  Finished(const HeightField& field, const RoundsOptions& options)
+      : graph(field.width(), field.height(), options.window),
+        store(graph, {options.folder, options.chunk_memory}),
+        surface(graph, [this](std::int64_t window) { return store.result(window); }) {}
 
- private:
-  const Progress& progress_;
-  std::size_t round_;
-  std::int64_t n_windows_;
-  double before_ = 0;
-  std::atomic<std::int64_t> done_ = 0;
-  std::mutex mutex_;
-  std::int64_t told_ = 0;
+  WindowGraph graph;
+  ChunkStore store;
+  WeldedSurface surface;
 };
 
-class Rounds {
+// One run through the tasks that are not done. A runner takes one task after the other; when none is ready it ends,
+// and whoever makes more tasks ready than there are runners starts new ones.
+class Run {
  public:
-  Rounds(const HeightField& field, const GridFrame& frame, const RoundsOptions& options, const Progress& progress,
-         CompressReport& report)
-      : field_(field), frame_(frame), options_(options), progress_(progress), report_(report) {
-    report_.round_triangles.clear();
-    report_.round_seconds.clear();
+  Run(const HeightField& field, const GridFrame& frame, const RoundsOptions& options, const Progress& progress,
+      Finished& result)
+      : field_(field),
+        frame_(frame),
+        options_(options),
+        progress_(progress),
+        graph_(result.graph),
+        store_(result.store),
+        surface_(result.surface),
+        queue_(graph_, [&](WindowName task) { return store_.is_done(task); }) {}
+
+  void operator()() {
+    weld_what_is_done();
+    start_runners(n_most_);
+    group_.wait();
+    weld_what_is_done();
   }
 
-  std::vector<Chunk> run() {
-    std::vector<Chunk> chunks = first_round();
-    if (chunks.size() > 1) {
-      for (int round = 1; round < kRounds; ++round) chunks = seam_round(std::move(chunks), round);
-    }
-    return chunks;
-  }
+  double seconds(int round) const { return seconds_[at(round)]; }
 
  private:
+  void start_runners(std::int64_t n_ready) {
+    const std::lock_guard lock(runners_mutex_);
+    for (; n_ready > 0 && n_runners_ < n_most_; --n_ready, ++n_runners_) group_.run([this] { run_tasks(); });
+  }
+
+  void run_tasks() {
+    try {
+      while (const auto task = is_stopped_ ? std::nullopt : queue_.next()) {
+        work(*task);
+        start_runners(queue_.done(*task) - 1);
+        tell();
+      }
+    } catch (...) {
+      is_stopped_ = true;
+      throw;
+    }
+    const std::lock_guard lock(runners_mutex_);
+    --n_runners_;
+  }
+
+  void work(WindowName task) {
+    const Stopwatch stopwatch;
+    if (task.round == 0) {
+      work_first(task);
+    } else {
+      work_later(task);
+    }
+    if (task.round == graph_.last_round()) weld_what_is_done();
+    const std::lock_guard lock(seconds_mutex_);
+    seconds_[at(task.round)] += stopwatch.seconds();
+  }
+
+  void work_first(WindowName task) {
+    const GridRect rect = graph_.samples(task);
+    if (field_.is_surely_void(rect)) return store_.put_empty(task);
+    FirstChunk result = first_chunk(field_, rect, window_options(rect));
+    const WindowCounts counts{result.samples, result.valid_cells, result.start_triangles,
+                              result.chunk.triangles.size()};
+    store_.put(task, parts_of(task, std::move(result.chunk)), counts);
+  }
+
+  void work_later(WindowName task) {
+    if (!store_.has_parts_for(task)) return store_.put_empty(task);
+    const auto held = store_.parts_for(task);
+    std::vector<const Chunk*> parts;
+    parts.reserve(held.size());
+    for (const auto& part : held) parts.push_back(part.get());
+    Chunk chunk = seam_chunk(field_, parts, window_options(graph_.samples(task)));
+    const WindowCounts counts{0, 0, 0, chunk.triangles.size()};
+    store_.put(task, parts_of(task, std::move(chunk)), counts);
+  }
+
+  std::vector<ChunkPart> parts_of(WindowName task, Chunk&& chunk) const {
+    if (task.round < graph_.last_round()) return split(chunk, graph_.windows(task.round + 1));
+    std::vector<ChunkPart> whole;
+    if (!chunk.is_empty()) whole.push_back({task.window, std::move(chunk)});
+    return whole;
+  }
+
   WindowOptions window_options(const GridRect& window) const {
     const auto [step_x, step_y] =
         frame_.metres_per_step(window.x0 + window.width / 2.0, window.y0 + window.height / 2.0);
     return {options_.tolerance, step_y / step_x, options_.placement, options_.effort};
   }
 
-  std::vector<Chunk> first_round() {
-    const Stopwatch stopwatch;
-    const WindowGrid windows = window_grid(field_.width(), field_.height(), options_.window, 0);
-    RoundProgress progress(progress_, 0, windows.count());
-    std::vector<FirstChunk> results(static_cast<std::size_t>(windows.count()));
-    tbb::parallel_for(std::int64_t{0}, windows.count(), [&](std::int64_t w) {
-      const GridRect rect = windows.samples(w, field_.width(), field_.height());
-      results[static_cast<std::size_t>(w)] = first_chunk(field_, rect, window_options(rect));
-      progress.window_done();
-    });
-    report_.windows = results.size();
-    report_.samples = report_.start_triangles = report_.full_triangles = 0;
-    std::vector<Chunk> chunks;
-    chunks.reserve(results.size());
-    for (FirstChunk& result : results) {
-      report_.samples += result.samples;
-      report_.start_triangles += result.start_triangles;
-      report_.full_triangles += 2 * result.valid_cells;
-      chunks.push_back(std::move(result.chunk));
-    }
-    note_round(stopwatch, chunks);
-    return chunks;
+  // Results are welded in the order of the windows, by whoever comes by.
+  void weld_what_is_done() {
+    const std::unique_lock lock(weld_mutex_, std::try_to_lock);
+    if (!lock) return;
+    const int last = graph_.last_round();
+    while (surface_.n_added() < graph_.windows(last).count() && store_.is_done({last, surface_.n_added()}))
+      surface_.add_next();
   }
 
-  std::vector<Chunk> seam_round(std::vector<Chunk>&& earlier, int round) {
-    const Stopwatch stopwatch;
-    const WindowGrid windows = window_grid(field_.width(), field_.height(), options_.window, round);
-    std::vector<std::vector<ChunkPart>> parts(earlier.size());
-    tbb::parallel_for(std::size_t{0}, earlier.size(), [&](std::size_t i) {
-      parts[i] = split(earlier[i], windows);
-      earlier[i] = {};
-    });
-    std::vector<std::vector<const Chunk*>> by_window(static_cast<std::size_t>(windows.count()));
-    for (const auto& of_chunk : parts) {
-      for (const ChunkPart& part : of_chunk)
-        by_window[static_cast<std::size_t>(part.window)].push_back(&part.chunk);
-    }
-    RoundProgress progress(progress_, round, windows.count());
-    std::vector<Chunk> chunks(by_window.size());
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t w) {
-      const GridRect rect = windows.samples(static_cast<std::int64_t>(w), field_.width(), field_.height());
-      chunks[w] = seam_chunk(field_, by_window[w], window_options(rect));
-      progress.window_done();
-    });
-    note_round(stopwatch, chunks);
-    return chunks;
-  }
-
-  void note_round(const Stopwatch& stopwatch, const std::vector<Chunk>& chunks) {
-    std::uint64_t n = 0;
-    for (const Chunk& chunk : chunks) n += chunk.triangles.size();
-    report_.round_triangles.push_back(n);
-    report_.round_seconds.push_back(stopwatch.seconds());
+  void tell() {
+    if (!progress_) return;
+    double fraction = 0;
+    for (int r = 0; r < graph_.n_rounds(); ++r)
+      fraction +=
+          kShare[at(r)] * static_cast<double>(queue_.n_done(r)) / static_cast<double>(graph_.windows(r).count());
+    const std::lock_guard lock(tell_mutex_);
+    told_ = std::max(told_, fraction);
+    if (progress_(told_, "simplify")) return;
+    throw Interrupted(options_.folder.empty() ? "interrupted; nothing was written"
+                                              : "interrupted; the same command goes on from here");
   }
 
   const HeightField& field_;
   const GridFrame& frame_;
   const RoundsOptions& options_;
   const Progress& progress_;
-  CompressReport& report_;
+  const WindowGraph& graph_;
+  ChunkStore& store_;
+  WeldedSurface& surface_;
+  WindowQueue queue_;
+  tbb::task_group group_;
+  std::mutex runners_mutex_;
+  std::int64_t n_runners_ = 0;
+  std::int64_t n_most_ = tbb::this_task_arena::max_concurrency();
+  std::atomic<bool> is_stopped_ = false;
+  std::mutex weld_mutex_;
+  std::mutex tell_mutex_;
+  double told_ = 0;
+  std::mutex seconds_mutex_;
+  std::array<double, kRounds> seconds_{};
 };
 
-TerrainMesh surface_of(const std::vector<Chunk>& chunks) {
-  std::vector<const Chunk*> parts;
-  parts.reserve(chunks.size());
-  for (const Chunk& chunk : chunks) parts.push_back(&chunk);
-  WindowMesh mesh = mesh_of(weld(parts));
-  TerrainMesh surface;
-  surface.triangles.reserve(mesh.origin.size() / 3);
-  for (std::size_t h = 0; h < mesh.origin.size(); h += 3) {
-    const auto name = [&](std::size_t k) { return static_cast<std::uint32_t>(mesh.origin[h + k]); };
-    surface.triangles.push_back({name(0), name(1), name(2)});
+void fill(CompressReport& report, const Finished& result, const Run& run) {
+  const WindowCounts first = result.store.counts(0);
+  report.windows = static_cast<std::uint64_t>(result.graph.windows(0).count());
+  report.samples = first.samples;
+  report.start_triangles = first.start_triangles;
+  report.full_triangles = 2 * first.valid_cells;
+  report.vertices = result.surface.extent().n_vertices;
+  report.triangles = result.surface.extent().n_triangles;
+  report.round_triangles.clear();
+  report.round_seconds.clear();
+  for (int r = 0; r < result.graph.n_rounds(); ++r) {
+    report.round_triangles.push_back(result.store.counts(r).triangles);
+    report.round_seconds.push_back(run.seconds(r));
   }
-  surface.position = std::move(mesh.position);
-  surface.height = std::move(mesh.height);
-  return surface;
 }
 
 }  // namespace
 
-TerrainMesh run_rounds(const HeightField& field, const GridFrame& frame, const RoundsOptions& options,
-                       const Progress& progress, CompressReport& report) {
-  TerrainMesh surface = surface_of(Rounds(field, frame, options, progress, report).run());
-  report.vertices = surface.position.size();
-  report.triangles = surface.triangles.size();
-  return surface;
+std::shared_ptr<const TerrainSurface> run_rounds(const HeightField& field, const GridFrame& frame,
+                                                 const RoundsOptions& options, const Progress& progress,
+                                                 CompressReport& report) {
+  for (int restarts = 0;; ++restarts) {
+    const auto result = std::make_shared<Finished>(field, options);
+    Run run(field, frame, options, progress, *result);
+    try {
+      run();
+      fill(report, *result, run);
+      return {result, &result->surface};
+    } catch (const DamagedChunk& damage) {
+      if (restarts == kMostRestarts) throw OutputError(std::string(damage.what()) + "; choose another --tmp");
+      report.remarks.push_back(std::string(damage.what()) + "; computed anew");
+    }
+  }
 }
 
 }  // namespace tinsmith

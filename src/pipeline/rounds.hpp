@@ -2,7 +2,8 @@
 // The rounds over all windows, in parallel.
 
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <string>
 
 #include "geodesy/grid_frame.hpp"
 #include "mesh/terrain_mesh.hpp"
@@ -17,11 +18,16 @@ struct RoundsOptions {
   std::int32_t window = 256;
   Placement placement = Placement::kOptimal;
   Effort effort = Effort::kDefault;
+  std::string folder{};                  // where finished windows are kept, there already; empty: in memory only
+  std::uint64_t chunk_memory = 1 << 26;  // bytes for chunks when there is a folder
 };
 
-/// Compresses a field. Must be called inside the task arena that limits the threads; the result does not
-/// depend on how many there are. Fills the report's counts and times. Throws Interrupted when progress says so.
-TerrainMesh run_rounds(const HeightField& field, const GridFrame& frame, const RoundsOptions& options,
-                       const Progress& progress, CompressReport& report);
+/// Compresses a field; goes on from what an earlier run with the same options left in the folder. Must be called
+/// inside the task arena that limits the threads; the result does not depend on how many there are. Fills the
+/// report's counts and times. The surface keeps what it needs but for the folder. Throws Interrupted when progress
+/// says so, OutputError when the folder can't be written.
+std::shared_ptr<const TerrainSurface> run_rounds(const HeightField& field, const GridFrame& frame,
+                                                 const RoundsOptions& options, const Progress& progress,
+                                                 CompressReport& report);
 
 }  // namespace tinsmith

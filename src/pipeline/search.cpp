@@ -45,17 +45,17 @@ std::optional<double> next_tolerance(const std::optional<Tried>& fine, const std
 
 }  // namespace
 
-TerrainMesh search_tolerance(const RunAtTolerance& run, std::optional<double> triangles,
-                             std::optional<double> ratio, CompressReport& report) {
+std::shared_ptr<const TerrainSurface> search_tolerance(const RunAtTolerance& run, std::optional<double> triangles,
+                                                       std::optional<double> ratio, CompressReport& report) {
   std::optional<Tried> fine;
   std::optional<Tried> coarse;
-  TerrainMesh best;
+  std::shared_ptr<const TerrainSurface> best;
   std::optional<double> tolerance = kStart;
   for (int i = 0; tolerance && i < kMostRuns; ++i) {
     CompressReport now;
-    TerrainMesh surface = run(*tolerance, now);
+    auto surface = run(*tolerance, now);
     const double limit = triangles ? *triangles : *ratio * static_cast<double>(now.full_triangles);
-    const Tried tried{*tolerance, static_cast<double>(surface.triangles.size())};
+    const Tried tried{*tolerance, static_cast<double>(surface->extent().n_triangles)};
     if (tried.triangles <= limit) {
       coarse = tried;
       best = std::move(surface);

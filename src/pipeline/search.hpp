@@ -2,6 +2,7 @@
 // The other two stops: which tolerance gives a number of triangles.
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "mesh/terrain_mesh.hpp"
@@ -10,12 +11,13 @@
 namespace tinsmith {
 
 /// A compression with a tolerance in vertical units; fills the report.
-using RunAtTolerance = std::function<TerrainMesh(double tolerance, CompressReport& report)>;
+using RunAtTolerance =
+    std::function<std::shared_ptr<const TerrainSurface>(double tolerance, CompressReport& report)>;
 
 /// The result with the smallest tolerance, among those tried, that has at most so many triangles (or that
 /// ratio of the full grid's): the count falls steadily with the tolerance, so it is bracketed and then closed
 /// in on until within 1 % below the limit. Throws ResultError when even the largest tolerance leaves more.
-TerrainMesh search_tolerance(const RunAtTolerance& run, std::optional<double> triangles,
-                             std::optional<double> ratio, CompressReport& report);
+std::shared_ptr<const TerrainSurface> search_tolerance(const RunAtTolerance& run, std::optional<double> triangles,
+                                                       std::optional<double> ratio, CompressReport& report);
 
 }  // namespace tinsmith

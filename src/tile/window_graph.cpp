@@ -1,11 +1,12 @@
 #include "tile/window_graph.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace tinsmith {
 
 namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // No chunk reaches farther than two sides beyond its window.
 constexpr std::int64_t kFarthest = 4;
@@ -14,72 +15,75 @@ constexpr std::int64_t kFarthest = 4;
 
 WindowGraph::WindowGraph(std::int32_t width, std::int32_t height, std::int32_t side)
     : width_(width), height_(height), side_(side) {
-  for (int round = 0; round < kRounds; ++round)
-    grids_[static_cast<std::size_t>(round)] = window_grid(width, height, side, round);
+  for (int round = 0; round < kRounds; ++round) grids_[at(round)] = window_grid(width, height, side, round);
   n_rounds_ = grids_[0].count() > 1 ? kRounds : 1;
+  for (int round = 0; round < n_rounds_; ++round) {
+    const std::size_t before = at(std::max(round - 1, 0));
+    columns_[at(round)] = axis(round, windows(round).columns, columns_[before]);
+    rows_[at(round)] = axis(round, windows(round).rows, rows_[before]);
+    for (auto* axes : {&columns_, &rows_}) {
+      if (round == 0) continue;
+      auto& readers = (*axes)[before].readers;
+      const auto& inputs = (*axes)[at(round)].inputs;
+      for (std::int64_t i = std::ssize(inputs) - 1; i >= 0; --i) {
+        for (std::int64_t j = inputs[at(i)].low; j <= inputs[at(i)].high; ++j)
+          readers[at(j)] = {i, std::max(readers[at(j)].high, i)};
+      }
+    }
+  }
 }
 
 GridRect WindowGraph::samples(WindowName name) const {
   return windows(name.round).samples(name.window, width_, height_);
 }
 
-// Along one axis, in cells: what window i holds, and what its chunk may reach.
+// What window i holds along an axis, in cells.
 WindowGraph::Range WindowGraph::held(int round, std::int64_t i) const {
   const std::int64_t shift = windows(round).shift_x;  // the same along both axes
   return {i * side_ - shift, (i + 1) * side_ - shift};
 }
 
-WindowGraph::Range WindowGraph::reached(int round, std::int64_t i) const {
-  if (round == 0) return held(0, i);
-  const Range inputs = inputs_along(round, i, std::numeric_limits<std::int64_t>::max());
-  return {reached(round - 1, inputs.low).low, reached(round - 1, inputs.high).high};
-}
-
-// A triangle has an area: its centroid lies inside of what its chunk reaches, not on the rim.
-WindowGraph::Range WindowGraph::inputs_along(int round, std::int64_t i, std::int64_t n_inputs) const {
-  const Range own = held(round, i);
-  Range found{i + kFarthest, i - kFarthest};
-  for (std::int64_t j = i - kFarthest; j <= i + kFarthest; ++j) {
-    const Range reach = reached(round - 1, j);
-    if (reach.low >= own.high || reach.high <= own.low) continue;
-    found = {std::min(found.low, j), std::max(found.high, j)};
+WindowGraph::Axis WindowGraph::axis(int round, std::int64_t n_windows, const Axis& before) const {
+  Axis axis;
+  axis.readers.resize(at(n_windows));
+  for (std::int64_t i = 0; i < n_windows; ++i) {
+    const Range own = held(round, i);
+    if (round == 0) {
+      axis.inputs.emplace_back();
+      axis.reached.push_back(own);
+      continue;
+    }
+    // A triangle has an area: its centroid lies inside of what its chunk reaches, not on the rim.
+    const std::int64_t last = std::ssize(before.reached) - 1;
+    Range inputs{last + 1, -1};
+    for (std::int64_t j = std::max<std::int64_t>(i - kFarthest, 0); j <= std::min(i + kFarthest, last); ++j) {
+      if (before.reached[at(j)].low >= own.high || before.reached[at(j)].high <= own.low) continue;
+      inputs = {std::min(inputs.low, j), std::max(inputs.high, j)};
+    }
+    axis.inputs.push_back(inputs);
+    axis.reached.push_back({before.reached[at(inputs.low)].low, before.reached[at(inputs.high)].high});
   }
-  if (n_inputs == std::numeric_limits<std::int64_t>::max()) return found;
-  return {std::max<std::int64_t>(found.low, 0), std::min(found.high, n_inputs - 1)};
-}
-
-WindowGraph::Range WindowGraph::readers_along(int round, std::int64_t i, std::int64_t n_inputs,
-                                              std::int64_t n_readers) const {
-  Range found{n_readers, -1};
-  for (std::int64_t j = std::max<std::int64_t>(i - kFarthest, 0); j <= std::min(i + kFarthest, n_readers - 1);
-       ++j) {
-    const Range inputs = inputs_along(round + 1, j, n_inputs);
-    if (i < inputs.low || i > inputs.high) continue;
-    found = {std::min(found.low, j), std::max(found.high, j)};
-  }
-  return found;
+  return axis;
 }
 
 WindowSpan WindowGraph::inputs(WindowName name) const {
   if (name.round == 0) return {};
-  const WindowGrid& own = windows(name.round);
-  const WindowGrid& before = windows(name.round - 1);
-  const Range columns = inputs_along(name.round, name.window % own.columns, before.columns);
-  const Range rows = inputs_along(name.round, name.window / own.columns, before.rows);
-  return {columns.low, columns.high, rows.low, rows.high, before.columns};
+  const std::int64_t n = windows(name.round).columns;
+  const Range columns = columns_[at(name.round)].inputs[at(name.window % n)];
+  const Range rows = rows_[at(name.round)].inputs[at(name.window / n)];
+  return {columns.low, columns.high, rows.low, rows.high, windows(name.round - 1).columns};
 }
 
 WindowSpan WindowGraph::readers(WindowName name) const {
   if (name.round == last_round()) return {};
-  const WindowGrid& own = windows(name.round);
-  const WindowGrid& after = windows(name.round + 1);
-  const Range columns = readers_along(name.round, name.window % own.columns, own.columns, after.columns);
-  const Range rows = readers_along(name.round, name.window / own.columns, own.rows, after.rows);
-  return {columns.low, columns.high, rows.low, rows.high, after.columns};
+  const std::int64_t n = windows(name.round).columns;
+  const Range columns = columns_[at(name.round)].readers[at(name.window % n)];
+  const Range rows = rows_[at(name.round)].readers[at(name.window / n)];
+  return {columns.low, columns.high, rows.low, rows.high, windows(name.round + 1).columns};
 }
 
 std::int64_t WindowGraph::first_row_reached(std::int64_t window_row) const {
-  return reached(last_round(), window_row).low;
+  return rows_[at(last_round())].reached[at(window_row)].low;
 }
 
 }  // namespace tinsmith

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "samples/height_grid.hpp"
 #include "tile/windows.hpp"
@@ -61,20 +62,26 @@ class WindowGraph {
   std::int64_t first_row_reached(std::int64_t window_row) const;
 
  private:
+  // Along one axis: windows in cells, and windows by their numbers.
   struct Range {
-    std::int64_t low;
-    std::int64_t high;
+    std::int64_t low = 0;
+    std::int64_t high = -1;
+  };
+  struct Axis {
+    std::vector<Range> reached;  // in cells, by window
+    std::vector<Range> inputs;
+    std::vector<Range> readers;
   };
   Range held(int round, std::int64_t i) const;
-  Range reached(int round, std::int64_t i) const;
-  Range inputs_along(int round, std::int64_t i, std::int64_t n_inputs) const;
-  Range readers_along(int round, std::int64_t i, std::int64_t n_inputs, std::int64_t n_readers) const;
+  Axis axis(int round, std::int64_t n_windows, const Axis& before) const;
 
   std::int32_t width_;
   std::int32_t height_;
   std::int64_t side_;
   int n_rounds_;
   std::array<WindowGrid, kRounds> grids_;
+  std::array<Axis, kRounds> columns_;
+  std::array<Axis, kRounds> rows_;
 };
 
 }  // namespace tinsmith

@@ -9,6 +9,7 @@
 
 #include "io/raster_field.hpp"
 #include "pipeline/rounds.hpp"
+#include "stitch/welded_surface.hpp"
 #include "support/random_grid.hpp"
 #include "support/surface_check.hpp"
 
@@ -24,7 +25,7 @@ inline Outcome run_in(int threads, const HeightField& field, const GridFrame& fr
   // More threads than the machine has, too.
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  arena.execute([&] { run.mesh = run_rounds(field, frame, options, {}, run.report); });
+  arena.execute([&] { run.mesh = mesh_of(*run_rounds(field, frame, options, {}, run.report)); });
   return run;
 }
 

@@ -1,0 +1,119 @@
+#include "pipeline/run_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <functional>
+#include <system_error>
+
+#include "base/disk.hpp"
+#include "tinsmith/error.hpp"
+
+namespace tinsmith {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kIdentity = "run";
+constexpr const char* kLock = "lock";
+
+std::string folder_for(const std::string& output, const std::string& tmp) {
+  const fs::path target = fs::weakly_canonical(fs::absolute(output));
+  if (tmp.empty()) return (target.parent_path() / ("." + target.filename().string() + ".tinsmith")).string();
+  // FNV-1a: the same name for the same path, on any machine.
+  std::uint64_t hash = 0xCBF29CE484222325;
+  for (const char c : target.string()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3;
+  return (fs::path(tmp) / fmt::format("{}-{:016x}.tinsmith", target.filename().string(), hash)).string();
+}
+
+std::string text_of(const Identity& identity) { return fmt::format("{}\n", fmt::join(identity, "\n")); }
+
+Identity lines_of(const std::string& text) {
+  Identity lines;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find('\n', i), text.size());
+    lines.push_back(text.substr(i, end - i));
+    i = end + 1;
+  }
+  return lines;
+}
+
+// The first line that differs, as "was, is now".
+std::string difference(const Identity& was, const Identity& now) {
+  const std::size_t n = std::min(was.size(), now.size());
+  const auto [a, b] = std::mismatch(was.begin(), was.begin() + static_cast<std::ptrdiff_t>(n), now.begin());
+  if (a == was.begin() + static_cast<std::ptrdiff_t>(n)) return "other inputs";
+  return fmt::format("'{}' then, '{}' now", *a, *b);
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const std::string& output, const std::string& tmp, const Identity& identity, bool fresh)
+    : path_(folder_for(output, tmp)) {
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error)
+    throw OutputError(
+        fmt::format("{}: can't be made: {}; choose another folder with --tmp", path_, error.message()));
+  lock_.emplace(path_ + "/" + kLock, output);
+  take_over(identity, fresh);
+}
+
+RunFolder::Lock::Lock(const std::string& file, const std::string& output)
+    : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0)
+    throw OutputError(fmt::format("{}: can't be written: {}; choose another folder with --tmp", file,
+                                  std::generic_category().message(errno)));
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  close(descriptor_);
+  throw OutputError(fmt::format(
+      "{}: another run is at work on it (it holds {}); wait for it, or choose another output", output, file));
+}
+
+RunFolder::Lock::~Lock() { close(descriptor_); }
+
+void RunFolder::take_over(const Identity& identity, bool fresh) {
+  const std::string file = path_ + "/" + kIdentity;
+  const std::string was = read_from_file(file, 0, file_size_or_zero(file));
+  const std::string now = text_of(identity);
+  if (was == now && !fresh) return;
+  if (!was.empty() && was != now && !fresh) {
+    const std::string what = difference(lines_of(was), lines_of(now));
+    throw UsageError(
+        fmt::format("{}: holds the work of an unfinished run with {}; give --fresh to throw that away, or what it "
+                    "was given to go on",
+                    path_, what));
+  }
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    if (entry.path().filename() != kLock) fs::remove_all(entry.path());
+  }
+  append_to_file(file, now);
+}
+
+RunFolder::~RunFolder() {
+  std::error_code error;
+  bool has_work = false;
+  for (const auto& entry : fs::directory_iterator(path_, error)) has_work = has_work || entry.is_directory();
+  if (!has_work) fs::remove_all(path_, error);
+}
+
+std::string RunFolder::subfolder(const std::string& name) const {
+  const fs::path folder = fs::path(path_) / name;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(fmt::format("{}: can't be made: {}", folder.string(), error.message()));
+  return folder.string();
+}
+
+void RunFolder::remove() {
+  std::error_code error;  // what can't be removed is in nobody's way
+  fs::remove_all(path_, error);
+}
+
+}  // namespace tinsmith
