@@ -1,9 +1,12 @@
 #pragma once
 // A file that appears under its name only when it is whole.
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tinsmith {
 
@@ -38,5 +41,13 @@ class OutputFile {
   std::string buffer_;
   int descriptor_ = -1;
 };
+
+/// Writes each element as a record of so many bytes, which put(element, bytes) fills.
+template <class T, class Put>
+void write_records(OutputFile& file, std::span<const T> elements, std::size_t record_bytes, Put put) {
+  std::vector<char> bytes(elements.size() * record_bytes);
+  for (std::size_t i = 0; i < elements.size(); ++i) put(elements[i], bytes.data() + i * record_bytes);
+  file.write(bytes.data(), bytes.size());
+}
 
 }  // namespace tinsmith
