@@ -11,12 +11,21 @@
 
 namespace tinsmith {
 
+/// Which height counts where several inputs hold a valid one.
+enum class Overlap {
+  kFirst,  // of the input named first
+  kLast,   // of the input named last
+  kMean,   // the mean of all
+};
+
 /// Which samples of the inputs count.
 struct InputOptions {
   int band = 1;                               // GDAL's numbering, from 1
   std::optional<double> nodata;               // overrides what the files declare; NaN is a value too
   std::optional<std::array<double, 4>> bbox;  // west, south, east, north in the input's CRS: cell centres inside
   std::optional<double> vertical_unit;        // metres per unit of height; overrides what the files declare
+  Overlap overlap = Overlap::kFirst;
+  bool skip_unreadable = false;  // what can't be opened or read becomes void instead of an InputError
 };
 
 /// Where a collapsed edge's new vertex may lie.

@@ -48,6 +48,17 @@ struct PlanError {
     c = dx * rx + dy * ry + dz * rz - rz * rz * inverse;
   }
 
+  /// Adds the error of a colour's channel over the same edge, with the level in place of the height, and free like
+  /// it: Hoppe 1999 says the same with gradients.
+  void add_channel(const PlanError& channel) {
+    kxx += channel.kxx;
+    kxy += channel.kxy;
+    kyy += channel.kyy;
+    kx += channel.kx;
+    ky += channel.ky;
+    c += channel.c;
+  }
+
   double at(double x, double y) const {
     return std::max(0.0, x * (kxx * x + 2 * (kxy * y - kx)) + y * (kyy * y - 2 * ky) + c);
   }

@@ -6,11 +6,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "io/glb_chunks.hpp"
 #include "io/input_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/mesh_text.hpp"
 #include "io/output_file.hpp"
 #include "tinsmith/error.hpp"
@@ -24,11 +26,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Position = std::array<float, 3>;
-using Triangle = std::array<std::uint32_t, 3>;
+using Triangle = std::array<std::uint64_t, 3>;
 
 static_assert(std::endian::native == std::endian::little, "glTF is written in the machine's byte order");
 
 constexpr std::uint64_t kMaxJsonBytes = 1 << 24;  // ours have some kilobytes: a CRS and a page of numbers
+constexpr std::uint64_t kJsonRoom = 1 << 16;      // left for it when a mesh is refused by its counts
+constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 48;  // far beyond 4 GiB, and no size of it overflows
 constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125;
 constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;
 
@@ -80,22 +84,21 @@ void require_float_holds(const std::string& path, std::int64_t extent, double me
     throw ResourceError(fmt::format("{}: heights of {} m are beyond float32; write .ply instead", path, metres));
 }
 
-LocalFrame local_frame(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame) {
-  const auto [west, east] = std::minmax_element(mesh.position.begin(), mesh.position.end(),
-                                                [](LatticePoint a, LatticePoint b) { return a.x < b.x; });
-  const auto [first, last] = std::minmax_element(mesh.position.begin(), mesh.position.end());
-  const auto [lowest, highest] = std::minmax_element(mesh.height.begin(), mesh.height.end());
-  const std::int64_t width = std::int64_t{east->x} - west->x;
-  const std::int64_t length = std::int64_t{last->y} - first->y;
+LocalFrame local_frame(const std::string& path, const TerrainExtent& extent, const GridFrame& frame) {
+  const auto [west, north] = extent.low;
+  const auto [east, south] = extent.high;
+  const std::int64_t width = std::int64_t{east} - west;
+  const std::int64_t length = std::int64_t{south} - north;
   LocalFrame local;
-  local.column = (west->x + width / 2) / kLatticePerCell;
-  local.row = (first->y + length / 2) / kLatticePerCell;
-  local.height = origin_height(*lowest, *highest);
+  local.column = (west + width / 2) / kLatticePerCell;
+  local.row = (north + length / 2) / kLatticePerCell;
+  local.height = origin_height(extent.lowest, extent.highest);
   const auto [x, y] = frame.metres_per_unit(static_cast<double>(local.column), static_cast<double>(local.row));
   local.metres_per_unit = {x, y, frame.metres_per_vertical_unit};
   local.row_sign = frame.is_mirrored() ? 1 : -1;
-  require_float_holds(path, std::max(width, length),
-                      std::max(*highest - local.height, local.height - *lowest) * local.metres_per_unit[2]);
+  require_float_holds(
+      path, std::max(width, length),
+      std::max(extent.highest - local.height, local.height - extent.lowest) * local.metres_per_unit[2]);
   return local;
 }
 
@@ -128,33 +131,31 @@ Transform node_transform(const std::string& path, const GridFrame& frame, const 
           {scale_x, 1, scale_z}};
 }
 
-Position local_position(const TerrainMesh& mesh, std::size_t v, const LocalFrame& local) {
-  const LatticePoint p = mesh.position[v];
+Position local_position(const TerrainVertex& vertex, const LocalFrame& local) {
+  const LatticePoint p = vertex.position;
   const auto x = static_cast<float>(p.x - local.column * kLatticePerCell) / kLatticePerCell;
   const auto z = static_cast<float>(p.y - local.row * kLatticePerCell) / kLatticePerCell;
-  const double y = (mesh.height[v] - local.height) * local.metres_per_unit[2];
+  const double y = (vertex.height - local.height) * local.metres_per_unit[2];
   return {x, static_cast<float>(y), static_cast<float>(local.row_sign) * z + 0.0F};
 }
 
-Json positions_accessor(const TerrainMesh& mesh, const LocalFrame& local) {
-  Position low = local_position(mesh, 0, local);
-  Position high = low;
-  for (std::size_t v = 1; v < mesh.position.size(); ++v) {
-    const Position p = local_position(mesh, v, local);
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
+/// Least and largest coordinates are those of the extent's corners, since no step on the way to float32 turns
+/// their order over.
+Json positions_accessor(const TerrainExtent& extent, const LocalFrame& local) {
+  const Position one = local_position({extent.low, extent.lowest}, local);
+  const Position other = local_position({extent.high, extent.highest}, local);
+  std::array<double, 3> low{};
+  std::array<double, 3> high{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = std::min(one[k], other[k]);
+    high[k] = std::max(one[k], other[k]);
   }
-  return {{"bufferView", 0},
-          {"componentType", kFloat},
-          {"count", mesh.position.size()},
-          {"type", "VEC3"},
-          {"min", std::array<double, 3>{low[0], low[1], low[2]}},
-          {"max", std::array<double, 3>{high[0], high[1], high[2]}}};
+  return {
+      {"bufferView", 0}, {"componentType", kFloat}, {"count", extent.n_vertices}, {"type", "VEC3"}, {"min", low},
+      {"max", high}};
 }
 
-/// What read_glb needs to find the CRS coordinates to the last bit, and what others need to use them.
+/// What visit_glb needs to find the CRS coordinates to the last bit, and what others need to use them.
 Json extras(const GridFrame& frame, const LocalFrame& local) {
   const auto [x, y] = frame.to_crs(static_cast<double>(local.column), static_cast<double>(local.row));
   return {{"crs_wkt", frame.crs_wkt},
@@ -167,19 +168,18 @@ Json extras(const GridFrame& frame, const LocalFrame& local) {
 
 /// Sizes of the two halves of the binary chunk. Index 65535 is not a vertex in glTF.
 struct Layout {
-  explicit Layout(const TerrainMesh& mesh)
-      : index_bytes(mesh.position.size() < 65536 ? 2 : 4),
-        positions(mesh.position.size() * sizeof(Position)),
-        indices(mesh.triangles.size() * 3 * index_bytes) {}
+  Layout(std::uint64_t n_vertices, std::uint64_t n_triangles)
+      : index_bytes(n_vertices < 65536 ? 2 : 4),
+        positions(n_vertices * sizeof(Position)),
+        indices(n_triangles * 3 * index_bytes) {}
+  std::uint64_t binary() const { return padded(positions + indices); }
   std::uint64_t index_bytes;
   std::uint64_t positions;
   std::uint64_t indices;
 };
 
-std::string json_text(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame,
-                      const LocalFrame& local) {
-  const Layout layout(mesh);
-  const Transform node = node_transform(path, frame, local);
+std::string json_text(const Layout& layout, const TerrainExtent& extent, const GridFrame& frame,
+                      const LocalFrame& local, const Transform& node) {
   Json json;
   json["asset"] = {{"version", "2.0"}, {"generator", "tinsmith"}};
   json["scene"] = 0;
@@ -191,10 +191,10 @@ std::string json_text(const std::string& path, const TerrainMesh& mesh, const Gr
                     {"extras", extras(frame, local)}}};
   json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}};
   json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}}};
-  json["accessors"] = {positions_accessor(mesh, local),
+  json["accessors"] = {positions_accessor(extent, local),
                        {{"bufferView", 1},
                         {"componentType", layout.index_bytes == 2 ? kUint16 : kUint32},
-                        {"count", mesh.triangles.size() * 3},
+                        {"count", extent.n_triangles * 3},
                         {"type", "SCALAR"}}};
   json["bufferViews"] = {
       {{"buffer", 0}, {"byteLength", layout.positions}, {"target", kVertexBuffer}},
@@ -205,12 +205,10 @@ std::string json_text(const std::string& path, const TerrainMesh& mesh, const Gr
   return text;
 }
 
-void write_triangle(OutputFile& file, const Triangle& triangle, std::uint64_t index_bytes) {
-  if (index_bytes == 4) return file.write(triangle.data(), sizeof triangle);
-  const std::array<std::uint16_t, 3> narrow{static_cast<std::uint16_t>(triangle[0]),
-                                            static_cast<std::uint16_t>(triangle[1]),
-                                            static_cast<std::uint16_t>(triangle[2])};
-  file.write(narrow.data(), sizeof narrow);
+template <class T>
+void put_triangle(const Triangle& triangle, char* bytes) {
+  const std::array narrow{static_cast<T>(triangle[0]), static_cast<T>(triangle[1]), static_cast<T>(triangle[2])};
+  std::memcpy(bytes, narrow.data(), sizeof narrow);
 }
 
 // ---- reading
@@ -289,10 +287,28 @@ void require_agreement(const InputFile& file, const Document& document, const Po
       file.fail("the node's transform and its extras put the mesh in different places");
 }
 
-Triangle read_triangle(InputFile& file, std::uint64_t index_bytes) {
-  if (index_bytes == 4) return file.read<Triangle>();
-  const auto narrow = file.read<std::array<std::uint16_t, 3>>();
+template <class T>
+Triangle triangle_at(const char* bytes) {
+  std::array<T, 3> narrow;
+  std::memcpy(narrow.data(), bytes, sizeof narrow);
   return {narrow[0], narrow[1], narrow[2]};
+}
+
+std::array<double, 3> vertex_at(const InputFile& file, const Document& document, const char* bytes) {
+  Position local;
+  std::memcpy(local.data(), bytes, sizeof local);
+  const auto vertex = to_crs(document.frame, document.local, local);
+  require_agreement(file, document, local, vertex);
+  return vertex;
+}
+
+/// The file stands at the positions.
+void require_size(InputFile& file, const Document& document) {
+  const std::uint64_t size = read_chunk_header(file, kBinChunk, "binary");
+  if (size != file.left() || document.n_vertices > size / sizeof(Position) ||
+      document.n_indices > size / document.index_bytes || document.n_indices % 3 != 0 ||
+      padded(document.n_vertices * sizeof(Position) + document.n_indices * document.index_bytes) != size)
+    file.fail("the binary chunk is not as long as the accessors say");
 }
 
 }  // namespace
@@ -305,49 +321,53 @@ double glb_height_rounding(double lowest, double highest) {
          2 * std::numeric_limits<double>::epsilon() * std::max(std::abs(lowest), std::abs(highest));
 }
 
-void write_glb(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame) {
-  if (mesh.triangles.empty())
+void require_glb_holds(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles) {
+  const Layout layout(std::min(n_vertices, kMaxCount), std::min(n_triangles, kMaxCount));
+  glb_size(path, kJsonRoom, layout.binary());
+}
+
+void write_glb(const std::string& path, const TerrainSurface& surface, const GridFrame& frame) {
+  const TerrainExtent& extent = surface.extent();
+  if (extent.n_triangles == 0)
     throw ResourceError(path + ": glTF can't hold a mesh without triangles; write .ply instead");
-  const LocalFrame local = local_frame(path, mesh, frame);
-  const std::string json = json_text(path, mesh, frame, local);
-  const Layout layout(mesh);
-  const std::uint64_t binary = padded(layout.positions + layout.indices);
-  const std::uint32_t total = glb_size(path, json.size(), binary);
+  require_glb_holds(path, extent.n_vertices, extent.n_triangles);
+  const LocalFrame local = local_frame(path, extent, frame);
+  const Layout layout(extent.n_vertices, extent.n_triangles);
+  const std::string json = json_text(layout, extent, frame, local, node_transform(path, frame, local));
+  const std::uint32_t total = glb_size(path, json.size(), layout.binary());
 
   OutputFile file(path);
   write_glb_header(file, total);
   write_chunk_header(file, json.size(), kJsonChunk);
   file.write(json);
-  write_chunk_header(file, binary, kBinChunk);
-  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
-    const Position position = local_position(mesh, v, local);
-    file.write(position.data(), sizeof position);
-  }
-  for (const Triangle& triangle : mesh.triangles)
-    write_triangle(file, turned(triangle, frame.is_mirrored()), layout.index_bytes);
-  file.write(std::string(binary - layout.positions - layout.indices, '\0'));
+  write_chunk_header(file, layout.binary(), kBinChunk);
+  surface.for_each_vertex_block([&](TerrainSurface::VertexBlock vertices) {
+    write_records(file, vertices, sizeof(Position), [&](const TerrainVertex& vertex, char* bytes) {
+      std::memcpy(bytes, local_position(vertex, local).data(), sizeof(Position));
+    });
+  });
+  const auto put = layout.index_bytes == 2 ? put_triangle<std::uint16_t> : put_triangle<std::uint32_t>;
+  surface.for_each_triangle_block([&](TerrainSurface::TriangleBlock triangles) {
+    write_records(file, triangles, 3 * layout.index_bytes, [&](const Triangle& triangle, char* bytes) {
+      put(turned(triangle, frame.is_mirrored()), bytes);
+    });
+  });
+  file.write(std::string(layout.binary() - layout.positions - layout.indices, '\0'));
   file.commit();
 }
 
-Tin read_glb(const std::string& path) {
+std::string visit_glb(const std::string& path, const MeshVisitor& visitor) {
   InputFile file(path);
   const Document document = read_document(file);
-  const std::uint64_t size = read_chunk_header(file, kBinChunk, "binary");
-  if (size != file.left() || document.n_vertices > size / sizeof(Position) ||
-      document.n_indices > size / document.index_bytes || document.n_indices % 3 != 0 ||
-      padded(document.n_vertices * sizeof(Position) + document.n_indices * document.index_bytes) != size)
-    file.fail("the binary chunk is not as long as the accessors say");
-  Tin tin;
-  tin.crs_wkt = document.frame.crs_wkt;
-  tin.vertices.resize(document.n_vertices);
-  for (auto& vertex : tin.vertices) {
-    const auto local = file.read<Position>();
-    vertex = to_crs(document.frame, document.local, local);
-    require_agreement(file, document, local, vertex);
-  }
-  tin.triangles.resize(document.n_indices / 3);
-  for (Triangle& triangle : tin.triangles) triangle = read_triangle(file, document.index_bytes);
-  return tin;
+  require_size(file, document);
+  if (visitor.counts) visitor.counts(document.n_vertices, document.n_indices / 3);
+  visit_records(
+      file, document.n_vertices, sizeof(Position),
+      [&](const char* bytes) { return vertex_at(file, document, bytes); }, visitor.vertices);
+  visit_records(file, document.n_indices / 3, 3 * document.index_bytes,
+                document.index_bytes == 2 ? triangle_at<std::uint16_t> : triangle_at<std::uint32_t>,
+                visitor.triangles);
+  return document.frame.crs_wkt;
 }
 
 }  // namespace tinsmith

@@ -7,19 +7,24 @@
 //   crs_wkt, origin [x, y, z in CRS units], metres_per_unit [of x, y, z],
 //   geotransform [GDAL's six], origin_column, origin_row [the sample at the local origin].
 
+#include <cstdint>
 #include <string>
 
 #include "geodesy/grid_frame.hpp"
 #include "mesh/terrain_mesh.hpp"
-#include "tinsmith/tin.hpp"
 
 namespace tinsmith {
+
+struct MeshVisitor;
 
 /// As height_rounding, for this format.
 double glb_height_rounding(double lowest, double highest);
 
-/// As write_mesh and read_mesh, for this format.
-void write_glb(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame);
-Tin read_glb(const std::string& path);
+/// As require_format_holds, for this format.
+void require_glb_holds(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles);
+
+/// As write_mesh and visit_mesh, for this format.
+void write_glb(const std::string& path, const TerrainSurface& surface, const GridFrame& frame);
+std::string visit_glb(const std::string& path, const MeshVisitor& visitor);
 
 }  // namespace tinsmith

@@ -68,6 +68,13 @@ void InputFile::read(void* bytes, std::size_t size) {
   }
 }
 
+void InputFile::seek(std::uint64_t position) {
+  if (lseek(descriptor_, static_cast<off_t>(position), SEEK_SET) < 0)
+    fail("can't be read: " + std::generic_category().message(errno));
+  position_ = position;
+  begin_ = end_ = 0;
+}
+
 bool InputFile::read_line(std::string_view& line, LastLine last_line) {
   std::size_t searched = 0;
   while (true) {

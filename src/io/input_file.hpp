@@ -1,7 +1,10 @@
 #pragma once
 // A mesh file being read: never past its end, every complaint with its place.
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +35,9 @@ class InputFile {
     return value;
   }
 
+  /// Goes on reading at this byte, at most size().
+  void seek(std::uint64_t position);
+
   /// The next line without its end; it lives until the next call. False at the end of the file. A last line
   /// without an end is a file cut short, unless it may lack one.
   bool read_line(std::string_view& line, LastLine last_line = LastLine::kNeedsEnd);
@@ -49,5 +55,21 @@ class InputFile {
   std::size_t begin_ = 0;  // of the bytes in the buffer that are not handed out yet
   std::size_t end_ = 0;
 };
+
+/// Reads n records of so many bytes, makes each a T, and visits these in blocks.
+template <class T, class Make>
+void visit_records(InputFile& file, std::uint64_t n, std::size_t record_bytes, Make make,
+                   const std::function<void(std::span<const T>)>& visit) {
+  constexpr std::uint64_t kBlock = 4096;
+  std::vector<char> bytes;
+  std::vector<T> block;
+  for (std::uint64_t left = n; left > 0; left -= block.size()) {
+    block.resize(std::min(left, kBlock));
+    bytes.resize(block.size() * record_bytes);
+    file.read(bytes.data(), bytes.size());
+    for (std::size_t i = 0; i < block.size(); ++i) block[i] = make(bytes.data() + i * record_bytes);
+    visit(block);
+  }
+}
 
 }  // namespace tinsmith

@@ -7,8 +7,8 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string_view>
-#include <vector>
 
 #include "io/glb.hpp"
 #include "io/obj.hpp"
@@ -21,15 +21,15 @@ namespace {
 
 struct Format {
   std::string_view extension;
-  void (*write)(const std::string&, const TerrainMesh&, const GridFrame&);
-  Tin (*read)(const std::string&);
+  void (*write)(const std::string&, const TerrainSurface&, const GridFrame&);
+  std::string (*visit)(const std::string&, const MeshVisitor&);
 };
 
 constexpr std::array kFormats{
-    Format{".ply", write_ply, read_ply},
-    Format{".obj", write_obj, read_obj},
-    Format{".glb", write_glb, read_glb},
-    Format{".2dm", write_two_dm, read_two_dm},
+    Format{".ply", write_ply, visit_ply},
+    Format{".obj", write_obj, visit_obj},
+    Format{".glb", write_glb, visit_glb},
+    Format{".2dm", write_two_dm, visit_two_dm},
 };
 
 std::string extension(const std::string& path) {
@@ -50,17 +50,37 @@ std::string unknown_extension(const std::string& path) {
                      extension(path));
 }
 
-void require_sound(const std::string& path, const Tin& tin) {
-  for (std::size_t v = 0; v < tin.vertices.size(); ++v)
-    for (const double coordinate : tin.vertices[v])
-      if (!std::isfinite(coordinate))
-        throw InputError(
-            fmt::format("{}: vertex {} has a coordinate that is not finite; write the mesh again", path, v));
-  for (std::size_t t = 0; t < tin.triangles.size(); ++t)
-    for (const std::uint32_t corner : tin.triangles[t])
-      if (corner >= tin.vertices.size())
-        throw InputError(fmt::format("{}: triangle {} names vertex {} of {}; write the mesh again", path, t, corner,
-                                     tin.vertices.size()));
+/// Counts what was read, and complains of numbers that no mesh has.
+struct SoundMesh {
+  const std::string& path;
+  std::uint64_t n_vertices = 0;
+  std::uint64_t n_triangles = 0;
+
+  void require_finite(std::span<const std::array<double, 3>> vertices) {
+    for (const auto& vertex : vertices) {
+      for (const double coordinate : vertex)
+        if (!std::isfinite(coordinate))
+          throw InputError(fmt::format("{}: vertex {} has a coordinate that is not finite; write the mesh again",
+                                       path, n_vertices));
+      ++n_vertices;
+    }
+  }
+
+  void require_in_range(std::span<const std::array<std::uint64_t, 3>> triangles) {
+    for (const auto& triangle : triangles) {
+      for (const std::uint64_t corner : triangle)
+        if (corner >= n_vertices)
+          throw InputError(fmt::format("{}: triangle {} names vertex {} of {}; write the mesh again", path,
+                                       n_triangles, corner, n_vertices));
+      ++n_triangles;
+    }
+  }
+};
+
+void require_numbers(const std::string& path, std::uint64_t n_vertices) {
+  if (n_vertices > std::uint64_t{1} << 32)
+    throw ResourceError(fmt::format("{}: {} vertices are more than a mesh in memory can number; take a coarser one",
+                                    path, n_vertices));
 }
 
 }  // namespace
@@ -75,34 +95,54 @@ double height_rounding(const std::string& path, double lowest, double highest) {
   return extension(path) == ".glb" ? glb_height_rounding(lowest, highest) : 0;
 }
 
-void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame) {
-  require_mesh_extension(path);
-  format_of(path)->write(path, mesh, frame);
+void require_format_holds(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles) {
+  if (extension(path) == ".glb") require_glb_holds(path, n_vertices, n_triangles);
 }
 
-Tin read_mesh(const std::string& path) {
-  const Format* format = format_of(path);
-  if (format == nullptr) throw InputError(unknown_extension(path));
-  Tin tin = format->read(path);
-  require_sound(path, tin);
-  return tin;
+void write_mesh(const std::string& path, const TerrainSurface& surface, const GridFrame& frame) {
+  require_mesh_extension(path);
+  format_of(path)->write(path, surface, frame);
+}
+
+void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame) {
+  write_mesh(path, MeshSurface(mesh), frame);
 }
 
 std::string visit_mesh(const std::string& path, const MeshVisitor& visitor) {
-  constexpr std::size_t kBlock = 4096;
-  const Tin tin = read_mesh(path);
-  const std::span<const std::array<double, 3>> vertices(tin.vertices);
-  for (std::size_t i = 0; i < vertices.size(); i += kBlock)
-    visitor.vertices(vertices.subspan(i, std::min(kBlock, vertices.size() - i)));
-  std::vector<std::array<std::uint64_t, 3>> block;
-  for (std::size_t t = 0; t < tin.triangles.size(); ++t) {
-    const auto& [a, b, c] = tin.triangles[t];
-    block.push_back({a, b, c});
-    if (block.size() < kBlock && t + 1 < tin.triangles.size()) continue;
-    visitor.triangles(block);
-    block.clear();
-  }
-  return tin.crs_wkt;
+  const Format* format = format_of(path);
+  if (format == nullptr) throw InputError(unknown_extension(path));
+  SoundMesh sound{path};
+  MeshVisitor checked = visitor;
+  checked.vertices = [&](std::span<const std::array<double, 3>> vertices) {
+    sound.require_finite(vertices);
+    visitor.vertices(vertices);
+  };
+  checked.triangles = [&](std::span<const std::array<std::uint64_t, 3>> triangles) {
+    sound.require_in_range(triangles);
+    visitor.triangles(triangles);
+  };
+  return format->visit(path, checked);
+}
+
+Tin read_mesh(const std::string& path) {
+  Tin tin;
+  MeshVisitor visitor;
+  visitor.counts = [&](std::uint64_t n_vertices, std::uint64_t n_triangles) {
+    require_numbers(path, n_vertices);
+    tin.vertices.reserve(n_vertices);
+    tin.triangles.reserve(n_triangles);
+  };
+  visitor.vertices = [&](std::span<const std::array<double, 3>> vertices) {
+    require_numbers(path, tin.vertices.size() + vertices.size());
+    tin.vertices.insert(tin.vertices.end(), vertices.begin(), vertices.end());
+  };
+  visitor.triangles = [&](std::span<const std::array<std::uint64_t, 3>> triangles) {
+    for (const auto& [a, b, c] : triangles)
+      tin.triangles.push_back(
+          {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+  };
+  tin.crs_wkt = visit_mesh(path, visitor);
+  return tin;
 }
 
 }  // namespace tinsmith

@@ -24,21 +24,30 @@ void require_mesh_extension(const std::string& path);
 /// Plan positions are exact in every format.
 double height_rounding(const std::string& path, double lowest, double highest);
 
+/// Throws ResourceError when the format of this path can't hold so many vertices and triangles; says which can.
+/// What passes here has a size that write_mesh can write. Only .glb has a limit: 4 GiB.
+void require_format_holds(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles);
+
 /// Writes aside and renames when whole, so that a failed write leaves the previous file as it was. Writes the
 /// .prj companion of .obj and .2dm the same way. The bytes depend on the arguments only, the path excluded.
-/// Throws OutputError (with the system's reason), ResourceError when the format can't hold the mesh.
+/// Goes through the vertices once and through the triangles once, in a few MB of memory. Throws OutputError (with
+/// the system's reason), and ResourceError before a byte is written when the format can't hold the mesh.
+void write_mesh(const std::string& path, const TerrainSurface& surface, const GridFrame& frame);
 void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame);
 
 /// Reads any of the written formats back, in the CRS and vertical unit of the input that it was made from
 /// (GLB: undoing the node's transform and the metres that its extras declare). Throws InputError, with the
-/// place of the damage, for anything that is not a whole, valid file: never crashes on garbage.
+/// place of the damage, for anything that is not a whole, valid file: never crashes on garbage. Throws
+/// ResourceError when there are more vertices than a Tin can number.
 Tin read_mesh(const std::string& path);
 
-/// The same block by block, for meshes that need not fit in memory: all vertices in their order, then all
-/// triangles in theirs. Everything is checked as read_mesh checks it, when its turn comes.
+/// The same block by block, in a few MB for meshes that need not fit in memory: all vertices in their order, then
+/// all triangles in theirs. Everything is checked before it is handed over.
 struct MeshVisitor {
   std::function<void(std::span<const std::array<double, 3>>)> vertices;
   std::function<void(std::span<const std::array<std::uint64_t, 3>>)> triangles;
+  /// May be empty. Called before all else when the file says how many there are and is long enough for them.
+  std::function<void(std::uint64_t n_vertices, std::uint64_t n_triangles)> counts = nullptr;
 };
 
 /// Returns the CRS as WKT, empty when unknown.

@@ -9,8 +9,13 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <span>
 #include <system_error>
+#include <vector>
+
+#include "io/mesh_file.hpp"
 
 namespace tinsmith {
 namespace {
@@ -24,6 +29,8 @@ void append(std::string& line, T value) {
   line += ' ';
   line.append(digits.data(), end);
 }
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 std::string prj_path(const std::string& mesh_path) {
   return std::filesystem::path(mesh_path).replace_extension(".prj").string();
@@ -42,18 +49,96 @@ std::string prj_text(const std::string& crs_wkt) {
   return text;
 }
 
-}  // namespace
+/// Hands single elements on in blocks.
+template <class T>
+class Blocks {
+ public:
+  explicit Blocks(const std::function<void(std::span<const T>)>& visit) : visit_(visit) {}
+  void add(const T& element) {
+    block_.push_back(element);
+    if (block_.size() == kBlock) hand_on();
+  }
+  void hand_on() {
+    if (!block_.empty()) visit_(block_);
+    block_.clear();
+  }
 
-std::array<double, 3> vertex_in_crs(const TerrainMesh& mesh, std::size_t vertex, const GridFrame& frame) {
-  const LatticePoint p = mesh.position[vertex];
-  const auto [x, y] =
-      frame.to_crs(static_cast<double>(p.x) / kLatticePerCell, static_cast<double>(p.y) / kLatticePerCell);
-  return {x, y, mesh.height[vertex]};
+ private:
+  static constexpr std::size_t kBlock = 4096;
+  const std::function<void(std::span<const T>)>& visit_;
+  std::vector<T> block_;
+};
+
+/// The one value that the numbers of a line make.
+template <class T>
+T value_of(const InputFile& file, std::string_view rest, T (*read)(LineNumbers&, std::uint64_t),
+           std::uint64_t n_before) {
+  LineNumbers numbers(file, rest);
+  const T value = read(numbers, n_before);
+  numbers.end();
+  return value;
 }
 
-std::array<std::uint32_t, 3> turned(std::array<std::uint32_t, 3> triangle, bool is_mirrored) {
-  if (is_mirrored) std::swap(triangle[1], triangle[2]);
-  return triangle;
+/// The lines of triangles that the search for vertices came by.
+struct FoundTriangles {
+  std::uint64_t count = 0;
+  std::uint64_t begin = 0;  // byte
+};
+
+/// Reads the comment, when it comes next, and hands the counts on when the file is long enough for them.
+TextCounts counts_at_head(InputFile& file, const MeshVisitor& visitor) {
+  constexpr std::uint64_t kShortestLine = 8;  // "v 0 0 0\n"
+  TextCounts counts;
+  const std::uint64_t begin = file.position();
+  std::string_view line;
+  if (!file.read_line(line) || !counts.read_comment(file, line)) file.seek(begin);
+  const std::uint64_t most = file.size() / kShortestLine;
+  if (!counts.promised() || !visitor.counts) return counts;
+  const auto& [n_vertices, n_triangles] = *counts.promised();
+  if (n_vertices <= most && n_triangles <= most) visitor.counts(n_vertices, n_triangles);
+  return counts;
+}
+
+FoundTriangles visit_vertices(InputFile& file, const TextLines& lines, const MeshVisitor& visitor) {
+  Blocks vertices(visitor.vertices);
+  FoundTriangles triangles;
+  TextCounts counts = counts_at_head(file, visitor);
+  std::uint64_t n_vertices = 0;
+  std::uint64_t begin = file.position();
+  for (std::string_view line; file.read_line(line); begin = file.position()) {
+    if (line.starts_with(lines.vertex)) {
+      vertices.add(value_of(file, line.substr(lines.vertex.size()), lines.vertex_of, n_vertices++));
+    } else if (line.starts_with(lines.triangle)) {
+      if (triangles.count++ == 0) triangles.begin = begin;
+    } else if (!counts.read_comment(file, line) && !lines.is_ignored(line)) {
+      file.fail("a line is neither a vertex nor a triangle");
+    }
+  }
+  if (!counts.promised() && triangles.count == 0) file.fail("has no triangles");
+  counts.require_whole(file, n_vertices, triangles.count);
+  vertices.hand_on();
+  return triangles;
+}
+
+void visit_triangles(InputFile& file, const TextLines& lines, const FoundTriangles& found,
+                     const MeshVisitor& visitor) {
+  Blocks triangles(visitor.triangles);
+  std::uint64_t n_triangles = 0;
+  file.seek(found.begin);
+  for (std::string_view line; n_triangles < found.count && file.read_line(line);)
+    if (line.starts_with(lines.triangle))
+      triangles.add(value_of(file, line.substr(lines.triangle.size()), lines.triangle_of, n_triangles++));
+  if (n_triangles < found.count) file.fail("has changed while it was read");
+  triangles.hand_on();
+}
+
+}  // namespace
+
+std::array<double, 3> vertex_in_crs(const TerrainVertex& vertex, const GridFrame& frame) {
+  const LatticePoint p = vertex.position;
+  const auto [x, y] =
+      frame.to_crs(static_cast<double>(p.x) / kLatticePerCell, static_cast<double>(p.y) / kLatticePerCell);
+  return {x, y, vertex.height};
 }
 
 std::string one_line(const std::string& wkt) {
@@ -67,36 +152,44 @@ void append_number(std::string& line, double value) { append(line, value); }
 void append_number(std::string& line, float value) { append(line, value); }
 void append_number(std::string& line, std::uint64_t value) { append(line, value); }
 
-std::string counts_comment(const TerrainMesh& mesh) {
-  return counts_comment(mesh.position.size(), mesh.triangles.size());
+std::string counts_comment(std::uint64_t n_vertices, std::uint64_t n_triangles) {
+  return fmt::format("{} {} {}\n", kCountsComment, n_vertices, n_triangles);
 }
 
-std::string counts_comment(std::size_t n_vertices, std::size_t n_triangles) {
-  return fmt::format("{} {} {}\n", kCountsComment, n_vertices, n_triangles);
+void LineNumbers::skip_blanks() {
+  std::size_t n = 0;
+  while (n < rest_.size() && is_blank(rest_[n])) ++n;
+  rest_.remove_prefix(n);
 }
 
 template <class T>
 T LineNumbers::next() {
-  rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
+  skip_blanks();
   T value{};
   const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
   const auto length = static_cast<std::size_t>(end - rest_.data());
-  if (error != std::errc() || (length < rest_.size() && rest_[length] != ' ' && rest_[length] != '\t'))
+  if (error != std::errc() || (length < rest_.size() && !is_blank(rest_[length])))
     file_.fail("a line has no valid number where one belongs");
   rest_.remove_prefix(length);
   return value;
 }
 
-double LineNumbers::coordinate() { return next<double>(); }
-
-std::uint32_t LineNumbers::index() {
-  const auto number = next<std::uint64_t>();
-  if (number < 1 || number > std::uint64_t{1} << 32) file_.fail("a line numbers a vertex that can't be there");
-  return static_cast<std::uint32_t>(number - 1);
+std::array<double, 3> LineNumbers::coordinates() {
+  return {next<double>(), next<double>(), next<double>()};  // braces: from left to right
 }
 
+std::array<std::uint64_t, 3> LineNumbers::corners() {
+  std::array<std::uint64_t, 3> corners{count(), count(), count()};
+  for (std::uint64_t& corner : corners)
+    if (corner-- == 0) file_.fail("a line numbers a vertex that can't be there");
+  return corners;
+}
+
+std::uint64_t LineNumbers::count() { return next<std::uint64_t>(); }
+
 void LineNumbers::end() {
-  if (rest_.find_first_not_of(" \t") != std::string_view::npos) file_.fail("a line has more than belongs there");
+  skip_blanks();
+  if (!rest_.empty()) file_.fail("a line has more than belongs there");
 }
 
 bool TextCounts::read_comment(const InputFile& file, std::string_view line) {
@@ -107,15 +200,15 @@ bool TextCounts::read_comment(const InputFile& file, std::string_view line) {
   return true;
 }
 
-void TextCounts::require_whole(const InputFile& file, const Tin& tin) const {
-  if (!counts_ && tin.triangles.empty()) file.fail("has no triangles");
-  require_whole(file, tin.vertices.size(), tin.triangles.size());
-}
-
-void TextCounts::require_whole(const InputFile& file, std::size_t n_vertices, std::size_t n_triangles) const {
+void TextCounts::require_whole(const InputFile& file, std::uint64_t n_vertices, std::uint64_t n_triangles) const {
   if (counts_ && *counts_ != std::array<std::uint64_t, 2>{n_vertices, n_triangles})
     file.fail(fmt::format("has {} vertices and {} triangles where its head promises {} and {}", n_vertices,
                           n_triangles, (*counts_)[0], (*counts_)[1]));
+}
+
+void visit_text(InputFile& file, const TextLines& lines, const MeshVisitor& visitor) {
+  const FoundTriangles triangles = visit_vertices(file, lines, visitor);
+  if (triangles.count > 0) visit_triangles(file, lines, triangles, visitor);
 }
 
 std::string read_prj(const std::string& mesh_path) {

@@ -6,20 +6,26 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "geodesy/grid_frame.hpp"
 #include "io/input_file.hpp"
 #include "io/output_file.hpp"
 #include "mesh/terrain_mesh.hpp"
-#include "tinsmith/tin.hpp"
 
 namespace tinsmith {
 
+struct MeshVisitor;
+
 /// A vertex in CRS coordinates.
-std::array<double, 3> vertex_in_crs(const TerrainMesh& mesh, std::size_t vertex, const GridFrame& frame);
+std::array<double, 3> vertex_in_crs(const TerrainVertex& vertex, const GridFrame& frame);
 
 /// A triangle, counter-clockwise seen from above: turned over about its first corner in a mirrored frame.
-std::array<std::uint32_t, 3> turned(std::array<std::uint32_t, 3> triangle, bool is_mirrored);
+template <class Index>
+std::array<Index, 3> turned(std::array<Index, 3> triangle, bool is_mirrored) {
+  if (is_mirrored) std::swap(triangle[1], triangle[2]);
+  return triangle;
+}
 
 /// WKT without line breaks.
 std::string one_line(const std::string& wkt);
@@ -30,23 +36,24 @@ void append_number(std::string& line, float value);
 void append_number(std::string& line, std::uint64_t value);
 
 /// The comment by which a reader of a text format knows that nothing is missing.
-std::string counts_comment(const TerrainMesh& mesh);
-std::string counts_comment(std::size_t n_vertices, std::size_t n_triangles);
+std::string counts_comment(std::uint64_t n_vertices, std::uint64_t n_triangles);
 
 /// Numbers of a line of text, one after the other. Complains through the file.
 class LineNumbers {
  public:
   LineNumbers(const InputFile& file, std::string_view rest) : file_(file), rest_(rest) {}
-  double coordinate();
-  /// A number from 1, as an index from 0.
-  std::uint32_t index();
-  std::uint64_t count() { return next<std::uint64_t>(); }
+  std::array<double, 3> coordinates();
+  /// Three numbers from 1, as indices from 0.
+  std::array<std::uint64_t, 3> corners();
+  std::uint64_t count();
   /// Complains unless the line ends here.
   void end();
+  [[noreturn]] void fail(const char* what) const { file_.fail(what); }
 
  private:
   template <class T>
   T next();
+  void skip_blanks();
   const InputFile& file_;
   std::string_view rest_;
 };
@@ -56,13 +63,27 @@ class TextCounts {
  public:
   /// Returns whether the line was the comment.
   bool read_comment(const InputFile& file, std::string_view line);
-  void require_whole(const InputFile& file, const Tin& tin) const;
-  /// The same where nothing is missing without the comment.
-  void require_whole(const InputFile& file, std::size_t n_vertices, std::size_t n_triangles) const;
+  void require_whole(const InputFile& file, std::uint64_t n_vertices, std::uint64_t n_triangles) const;
+  /// Of vertices and triangles; nothing before the comment was met.
+  const std::optional<std::array<std::uint64_t, 2>>& promised() const { return counts_; }
 
  private:
   std::optional<std::array<std::uint64_t, 2>> counts_;
 };
+
+/// How the lines of a text format look. The functions take a line's numbers after its beginning, and how many
+/// vertices or triangles came before it.
+struct TextLines {
+  std::string_view vertex;  // what the line begins with
+  std::string_view triangle;
+  std::array<double, 3> (*vertex_of)(LineNumbers& numbers, std::uint64_t n_before);
+  std::array<std::uint64_t, 3> (*triangle_of)(LineNumbers& numbers, std::uint64_t n_before);
+  bool (*is_ignored)(std::string_view line);  // of lines that are neither
+};
+
+/// Visits the mesh in the rest of a file of lines: reads the vertices and counts the triangles, in any order, then
+/// goes back to the first triangle.
+void visit_text(InputFile& file, const TextLines& lines, const MeshVisitor& visitor);
 
 /// What stands in the .prj beside a mesh; empty when there is none.
 std::string read_prj(const std::string& mesh_path);

@@ -5,12 +5,13 @@
 
 #include "geodesy/grid_frame.hpp"
 #include "mesh/terrain_mesh.hpp"
-#include "tinsmith/tin.hpp"
 
 namespace tinsmith {
 
-/// As write_mesh and read_mesh, for this format. Reads plain `v x y z` and `f a b c` only.
-void write_obj(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame);
-Tin read_obj(const std::string& path);
+struct MeshVisitor;
+
+/// As write_mesh and visit_mesh, for this format. Reads plain `v x y z` and `f a b c` only.
+void write_obj(const std::string& path, const TerrainSurface& surface, const GridFrame& frame);
+std::string visit_obj(const std::string& path, const MeshVisitor& visitor);
 
 }  // namespace tinsmith

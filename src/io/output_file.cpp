@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -27,11 +29,64 @@ std::string resolve(const std::string& path) {
   return error ? path : target.string();
 }
 
-/// A short name of its own, so that a long name of the target can't make it too long for the file system.
+constexpr std::string_view kSuffix = ".tmp";
+
+/// FNV-1a.
+std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
+/// What the names of the target's temporary files begin with, without the folder; then come process, number and
+/// suffix. Short, so that a long name of the target can't make it too long for the file system.
+std::string temporary_prefix(const std::string& target) {
+  constexpr std::size_t kLongest = 64;
+  const std::string name = std::filesystem::path(target).filename().string();
+  return name.size() <= kLongest ? fmt::format(".tinsmith-{}-", name)
+                                 : fmt::format(".tinsmith-{}~{:016x}-", name.substr(0, kLongest), hash_of(name));
+}
+
 std::string temporary_name(const std::string& target) {
   static std::atomic<unsigned> count{0};
   const auto folder = std::filesystem::path(target).parent_path();
-  return (folder / fmt::format(".tinsmith-{}-{}.tmp", getpid(), count++)).string();
+  return (folder / fmt::format("{}{}-{}{}", temporary_prefix(target), getpid(), count++, kSuffix)).string();
+}
+
+/// Two numbers have to follow the prefix: that of "a" also begins the names for a target "a-1".
+bool is_temporary(std::string_view name, std::string_view prefix) {
+  if (name.size() < prefix.size() + kSuffix.size() || !name.starts_with(prefix) || !name.ends_with(kSuffix))
+    return false;
+  const std::string_view numbers = name.substr(prefix.size(), name.size() - prefix.size() - kSuffix.size());
+  return numbers.find_first_not_of("0123456789-") == std::string_view::npos &&
+         std::count(numbers.begin(), numbers.end(), '-') == 1;
+}
+
+/// Whether the file still bears this name.
+bool is_named(int descriptor, const std::string& name) {
+  struct stat file {};
+  struct stat named {};
+  return fstat(descriptor, &file) == 0 && lstat(name.c_str(), &named) == 0 && file.st_dev == named.st_dev &&
+         file.st_ino == named.st_ino;
+}
+
+/// Removes the file unless a writer holds it. Only who has the lock renames or removes a temporary file, hence the
+/// look at the name under the lock.
+void remove_if_abandoned(const std::string& temporary) {
+  const int descriptor = open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_named(descriptor, temporary)) unlink(temporary.c_str());
+  close(descriptor);
+}
+
+/// Whatever can't be seen or removed here stays: that is no reason not to write.
+void remove_abandoned(const std::string& target) {
+  const std::string prefix = temporary_prefix(target);
+  const auto parent = std::filesystem::path(target).parent_path();
+  std::error_code error;
+  std::filesystem::directory_iterator files(parent.empty() ? "." : parent, error);
+  for (; !error && files != std::filesystem::directory_iterator(); files.increment(error))
+    if (is_temporary(files->path().filename().string(), prefix)) remove_if_abandoned(files->path().string());
 }
 
 }  // namespace
@@ -40,21 +95,31 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(resolve(p
   struct stat status {};
   if (stat(target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     throw OutputError(fmt::format("{}: is there and is not a regular file; choose another output", path));
-  do {
-    temporary_ = temporary_name(target_);
-    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (descriptor_ < 0 && errno == EEXIST);
-  if (descriptor_ < 0) {
-    const int error = errno;
-    temporary_.clear();
-    fail(error);
-  }
+  remove_abandoned(target_);
+  do open_temporary();
+  while (descriptor_ < 0);
   buffer_.reserve(kBufferBytes);
 }
 
+/// Without a descriptor afterwards when the name was in use, or another writer of the target took the file for an
+/// abandoned one, before it was locked. Where there are no locks nobody does.
+void OutputFile::open_temporary() {
+  const std::string name = temporary_name(target_);
+  const int descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0 && errno != EEXIST) fail(errno);
+  if (descriptor < 0) return;
+  while (flock(descriptor, LOCK_EX) != 0 && errno == EINTR) continue;
+  if (!std::filesystem::exists(name)) {
+    close(descriptor);
+    return;
+  }
+  descriptor_ = descriptor;
+  temporary_ = name;
+}
+
 OutputFile::~OutputFile() {
-  if (descriptor_ >= 0) close(descriptor_);
   if (!temporary_.empty()) unlink(temporary_.c_str());
+  if (descriptor_ >= 0) close(descriptor_);
 }
 
 void OutputFile::fail(int error) const {
@@ -81,18 +146,17 @@ void OutputFile::write(const void* bytes, std::size_t size) {
 }
 
 void OutputFile::finish() {
-  if (descriptor_ < 0) return;
   flush();
   if (fsync(descriptor_) != 0) fail(errno);
-  const int failed = close(descriptor_);
-  descriptor_ = -1;
-  if (failed != 0) fail(errno);
 }
 
 void OutputFile::commit() {
   finish();
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
+  // Not before, since this gives up the lock; what it could say, fsync has said.
+  close(descriptor_);
+  descriptor_ = -1;
 }
 
 }  // namespace tinsmith

@@ -4,9 +4,11 @@
 
 #include <bit>
 #include <charconv>
-#include <limits>
+#include <cmath>
+#include <cstring>
 
 #include "io/input_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/mesh_text.hpp"
 #include "io/output_file.hpp"
 
@@ -16,22 +18,41 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "PLY is written in the machine's byte order");
 
 constexpr std::size_t kVertexBytes = 3 * sizeof(double);
-constexpr std::size_t kTriangleBytes = 1 + 3 * sizeof(std::uint32_t);
 
-std::string header(const TerrainMesh& mesh, const GridFrame& frame) {
-  // Readers that only know int take these indices too, as long as they fit.
-  const bool fits_int = mesh.position.size() <= std::uint64_t{1} << 31;
+/// The type of an index.
+enum class Index { kInt, kUint, kDouble };
+
+/// The one that most readers know and that holds all indices.
+Index index_for(std::uint64_t n_vertices) {
+  if (n_vertices <= std::uint64_t{1} << 31) return Index::kInt;
+  return n_vertices <= std::uint64_t{1} << 32 ? Index::kUint : Index::kDouble;
+}
+
+const char* name(Index index) { return index == Index::kInt ? "int" : index == Index::kUint ? "uint" : "double"; }
+
+/// Bytes of a triangle: how many corners, and these.
+constexpr std::size_t triangle_bytes(Index index) { return 1 + std::size_t{3} * (index == Index::kDouble ? 8 : 4); }
+
+std::string header(const TerrainExtent& extent, const GridFrame& frame) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\n{}"
       "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
       "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-      frame.crs_wkt.empty() ? "" : fmt::format("comment crs {}\n", one_line(frame.crs_wkt)), mesh.position.size(),
-      mesh.triangles.size(), fits_int ? "int" : "uint");
+      frame.crs_wkt.empty() ? "" : fmt::format("comment crs {}\n", one_line(frame.crs_wkt)), extent.n_vertices,
+      extent.n_triangles, name(index_for(extent.n_vertices)));
+}
+
+template <class T>
+void put_triangle(const std::array<std::uint64_t, 3>& corners, char* bytes) {
+  *bytes++ = 3;
+  const std::array numbers{static_cast<T>(corners[0]), static_cast<T>(corners[1]), static_cast<T>(corners[2])};
+  std::memcpy(bytes, numbers.data(), sizeof numbers);
 }
 
 struct Header {
   std::uint64_t n_vertices = 0;
   std::uint64_t n_triangles = 0;
+  Index index = Index::kInt;
   std::string crs_wkt;
 };
 
@@ -51,6 +72,12 @@ std::string next_entry(InputFile& file, std::string_view start, Header& header) 
   return std::string(line.substr(start.size()));
 }
 
+Index index_of(const InputFile& file, const std::string& text) {
+  for (const Index index : {Index::kInt, Index::kUint, Index::kDouble})
+    if (text == fmt::format("{} vertex_indices", name(index))) return index;
+  file.fail("the PLY faces are no index lists");
+}
+
 std::uint64_t count(const InputFile& file, const std::string& text) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -66,53 +93,70 @@ Header read_header(InputFile& file) {
   header.n_vertices = count(file, next_entry(file, "element vertex ", header));
   for (const char* axis : {"x", "y", "z"}) next_entry(file, fmt::format("property double {}", axis), header);
   header.n_triangles = count(file, next_entry(file, "element face ", header));
-  const std::string list = next_entry(file, "property list uchar ", header);
-  if (list != "int vertex_indices" && list != "uint vertex_indices") file.fail("the PLY faces are no index lists");
+  header.index = index_of(file, next_entry(file, "property list uchar ", header));
   next_entry(file, "end_header", header);
   return header;
 }
 
 void require_size(const InputFile& file, const Header& header) {
-  const bool fits = header.n_vertices <= file.left() / kVertexBytes &&
-                    header.n_triangles <= file.left() / kTriangleBytes &&
-                    header.n_vertices * kVertexBytes + header.n_triangles * kTriangleBytes == file.left();
+  const std::size_t bytes = triangle_bytes(header.index);
+  const bool fits = header.n_vertices <= file.left() / kVertexBytes && header.n_triangles <= file.left() / bytes &&
+                    header.n_vertices * kVertexBytes + header.n_triangles * bytes == file.left();
   if (!fits)
     file.fail(fmt::format("{} bytes are not {} vertices and {} triangles", file.left(), header.n_vertices,
                           header.n_triangles));
 }
 
+std::uint64_t index_from(const InputFile&, std::uint32_t index) { return index; }
+
+std::uint64_t index_from(const InputFile& file, double index) {
+  if (!(index >= 0 && index < 0x1p53) || std::trunc(index) != index) file.fail("a face has an index that is none");
+  return static_cast<std::uint64_t>(index);
+}
+
+template <class T>
+std::array<std::uint64_t, 3> triangle_at(const InputFile& file, const char* bytes) {
+  if (*bytes != 3) file.fail("a face is not a triangle");
+  std::array<T, 3> corners;
+  std::memcpy(corners.data(), bytes + 1, sizeof corners);
+  return {index_from(file, corners[0]), index_from(file, corners[1]), index_from(file, corners[2])};
+}
+
 }  // namespace
 
-void write_ply(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame) {
+void write_ply(const std::string& path, const TerrainSurface& surface, const GridFrame& frame) {
+  const Index index = index_for(surface.extent().n_vertices);
+  const auto put = index == Index::kDouble ? put_triangle<double> : put_triangle<std::uint32_t>;
   OutputFile file(path);
-  file.write(header(mesh, frame));
-  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
-    const auto vertex = vertex_in_crs(mesh, v, frame);
-    file.write(vertex.data(), kVertexBytes);
-  }
-  for (const auto& triangle : mesh.triangles) {
-    const auto corners = turned(triangle, frame.is_mirrored());
-    const std::uint8_t n_corners = 3;
-    file.write(&n_corners, 1);
-    file.write(corners.data(), sizeof corners);
-  }
+  file.write(header(surface.extent(), frame));
+  surface.for_each_vertex_block([&](TerrainSurface::VertexBlock vertices) {
+    write_records(file, vertices, kVertexBytes, [&](const TerrainVertex& vertex, char* bytes) {
+      std::memcpy(bytes, vertex_in_crs(vertex, frame).data(), kVertexBytes);
+    });
+  });
+  surface.for_each_triangle_block([&](TerrainSurface::TriangleBlock triangles) {
+    write_records(file, triangles, triangle_bytes(index),
+                  [&](const auto& triangle, char* bytes) { put(turned(triangle, frame.is_mirrored()), bytes); });
+  });
   file.commit();
 }
 
-Tin read_ply(const std::string& path) {
+std::string visit_ply(const std::string& path, const MeshVisitor& visitor) {
   InputFile file(path);
-  Header header = read_header(file);
+  const Header header = read_header(file);
   require_size(file, header);
-  Tin tin;
-  tin.crs_wkt = std::move(header.crs_wkt);
-  tin.vertices.resize(header.n_vertices);
-  file.read(tin.vertices.data(), tin.vertices.size() * kVertexBytes);
-  tin.triangles.resize(header.n_triangles);
-  for (auto& triangle : tin.triangles) {
-    if (file.read<std::uint8_t>() != 3) file.fail("a face is not a triangle");
-    file.read(triangle.data(), sizeof triangle);
-  }
-  return tin;
+  if (visitor.counts) visitor.counts(header.n_vertices, header.n_triangles);
+  const auto vertex_at = [](const char* bytes) {
+    std::array<double, 3> vertex;
+    std::memcpy(vertex.data(), bytes, sizeof vertex);
+    return vertex;
+  };
+  visit_records(file, header.n_vertices, kVertexBytes, vertex_at, visitor.vertices);
+  const auto triangle = header.index == Index::kDouble ? triangle_at<double> : triangle_at<std::uint32_t>;
+  visit_records(
+      file, header.n_triangles, triangle_bytes(header.index),
+      [&](const char* bytes) { return triangle(file, bytes); }, visitor.triangles);
+  return header.crs_wkt;
 }
 
 }  // namespace tinsmith

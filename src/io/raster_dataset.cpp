@@ -1,19 +1,27 @@
 #include "io/raster_dataset.hpp"
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
 namespace {
 
-// Mosaics of thousands of tiles must not run out of file descriptors (1024 by default); 64 serve any number
-// of threads that work on neighbouring windows.
-constexpr std::size_t kMaxIdle = 64;
+// Mosaics of thousands of tiles must not run out of file descriptors (1024 by default), of which each dataset
+// takes one or, with a mask beside it, a few. 256 serve a row of windows across 128 tiles.
+std::size_t max_idle() {
+  constexpr rlim_t kMost = 256;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return 16;
+  return static_cast<std::size_t>(std::clamp<rlim_t>(limit.rlim_cur / 4, 1, kMost));
+}
 
 // A message that only repeats that the file is no raster says nothing new.
 bool says_more(const std::string& message) {
@@ -35,25 +43,27 @@ bool opens_as_vectors(const std::string& path) {
 [[noreturn]] void refuse(const std::string& path) {
   const std::string reason = says_more(CPLGetLastErrorMsg()) ? gdal_reason() : "";
   VSIStatBufL stat;
-  if (path.empty()) throw InputError("the name of an input is empty; name a raster file");
+  if (path.empty()) throw UnreadableError("the name of an input is empty; name a raster file");
   if (VSIStatL(path.c_str(), &stat) != 0) {
-    throw InputError(fmt::format("{}: no such file{}; check the path", path, reason));
+    throw UnreadableError(fmt::format("{}: no such file{}; check the path", path, reason));
   }
   if (VSI_ISDIR(stat.st_mode))
-    throw InputError(fmt::format("{}: a folder, not a raster; name the files in it", path));
-  if (stat.st_size == 0) throw InputError(fmt::format("{}: an empty file, not a raster; get it again", path));
+    throw UnreadableError(fmt::format("{}: a folder, not a raster; name the files in it", path));
+  if (stat.st_size == 0) throw UnreadableError(fmt::format("{}: an empty file, not a raster; get it again", path));
   if (holds_vectors(path) || opens_as_vectors(path)) {
-    throw InputError(fmt::format("{}: vector data, not a raster; make a raster of it first with gdal_grid", path));
+    throw UnreadableError(
+        fmt::format("{}: vector data, not a raster; make a raster of it first with gdal_grid", path));
   }
-  throw InputError(fmt::format("{}: not a raster that GDAL can read{}; see what gdalinfo says", path, reason));
+  throw UnreadableError(fmt::format("{}: not a raster that GDAL can read{}; see what gdalinfo says", path, reason));
 }
 
 void require_band(GDALDataset& dataset, const std::string& path) {
   if (dataset.GetRasterCount() > 0) return;
   char** names = dataset.GetMetadata("SUBDATASETS");
   const char* first = CSLFetchNameValue(names, "SUBDATASET_1_NAME");
-  if (first == nullptr) throw InputError(fmt::format("{}: holds no raster band; see what gdalinfo says", path));
-  throw InputError(
+  if (first == nullptr)
+    throw UnreadableError(fmt::format("{}: holds no raster band; see what gdalinfo says", path));
+  throw UnreadableError(
       fmt::format("{}: holds {} rasters; name one of them, for example '{}'", path, CSLCount(names) / 2, first));
 }
 
@@ -68,6 +78,8 @@ std::string gdal_reason() {
 GDALDatasetUniquePtr open_raster(const std::string& path) {
   GDALAllRegister();
   const QuietGdal quiet;
+  // Looking for each sidecar file by its name: listing a folder of thousands for each of them took twice as long.
+  const CPLConfigOptionSetter no_listing("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE", true);
   GDALDatasetUniquePtr dataset(
       GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (dataset == nullptr) refuse(path);
@@ -75,31 +87,56 @@ GDALDatasetUniquePtr open_raster(const std::string& path) {
   return dataset;
 }
 
+void set_raster_cache(std::uint64_t bytes) {
+  constexpr std::uint64_t kMost = std::numeric_limits<GIntBig>::max();
+  GDALSetCacheMax64(static_cast<GIntBig>(std::min(bytes, kMost)));
+}
+
+DatasetPool::DatasetPool() : max_idle_(max_idle()) {}
+
 DatasetPool::~DatasetPool() {
   const QuietGdal quiet;
   idle_.clear();
 }
 
+void DatasetPool::add(const std::string& path, GDALDatasetUniquePtr dataset, Handles handles) {
+  inputs_.push_back({path, handles, false});
+  give_back(inputs_.size() - 1, std::move(dataset));
+}
+
+GDALDatasetUniquePtr DatasetPool::take_idle(std::size_t input) {
+  Input& asked = inputs_[input];
+  std::unique_lock lock(mutex_);
+  returned_.wait(lock, [&] { return asked.handles == Handles::kOnePerThread || !asked.is_lent; });
+  asked.is_lent = true;
+  const auto found =
+      std::find_if(idle_.begin(), idle_.end(), [&](const Idle& idle) { return idle.input == input; });
+  if (found == idle_.end()) return nullptr;
+  GDALDatasetUniquePtr dataset = std::move(found->dataset);
+  idle_.erase(found);
+  return dataset;
+}
+
 GDALDatasetUniquePtr DatasetPool::take(std::size_t input) {
-  {
-    const std::lock_guard lock(mutex_);
-    const auto found =
-        std::find_if(idle_.begin(), idle_.end(), [input](const Idle& idle) { return idle.input == input; });
-    if (found != idle_.end()) {
-      GDALDatasetUniquePtr dataset = std::move(found->dataset);
-      idle_.erase(found);
-      return dataset;
-    }
+  GDALDatasetUniquePtr dataset = take_idle(input);
+  if (dataset != nullptr) return dataset;
+  try {
+    return open_raster(inputs_[input].path);
+  } catch (...) {
+    give_back(input, nullptr);
+    throw;
   }
-  return open_raster(paths_[input]);
 }
 
 void DatasetPool::give_back(std::size_t input, GDALDatasetUniquePtr dataset) noexcept {
   const QuietGdal quiet;
   std::list<Idle> closed;  // outside the lock
   const std::lock_guard lock(mutex_);
+  inputs_[input].is_lent = false;
+  returned_.notify_all();
+  if (dataset == nullptr) return;
   idle_.push_front({input, std::move(dataset)});
-  if (idle_.size() > kMaxIdle) closed.splice(closed.begin(), idle_, std::prev(idle_.end()));
+  if (idle_.size() > max_idle_) closed.splice(closed.begin(), idle_, std::prev(idle_.end()));
 }
 
 }  // namespace tinsmith

@@ -4,12 +4,26 @@
 #include <cpl_error.h>
 #include <gdal_priv.h>
 
+#include <condition_variable>
+#include <cstdint>
 #include <list>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "tinsmith/error.hpp"
+
 namespace tinsmith {
+
+/// An input that can't be opened, or samples of it that can't be read, as opposed to one that makes no sense.
+class UnreadableError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// The memory that GDAL may use for decoded blocks of all rasters together, in bytes. Without a call GDAL takes
+/// what GDAL_CACHEMAX says, or a twentieth of the machine's.
+void set_raster_cache(std::uint64_t bytes);
 
 /// While one lives, GDAL prints nothing from this thread; its last message is kept for gdal_reason().
 class QuietGdal {
@@ -23,22 +37,32 @@ class QuietGdal {
 /// " (GDAL: its last message)" in one line, or nothing when there is no message.
 std::string gdal_reason();
 
-/// Opens a raster for reading. Throws InputError that says why not: missing, a folder, empty, vector data,
+/// Opens a raster for reading. Throws UnreadableError that says why not: missing, a folder, empty, vector data,
 /// only subdatasets, not a raster.
 GDALDatasetUniquePtr open_raster(const std::string& path);
 
+/// How many datasets of an input may be open at once.
+enum class Handles {
+  kOnePerThread,  // each decodes and caches blocks for itself
+  kOne,           // threads wait for each other; no block is decoded or cached twice
+};
+
 /// Open datasets of the inputs. A GDALDataset may serve one thread at a time, hence each borrower has one for
-/// itself. Thread-safe.
+/// itself. Idle ones stay open, as many as a quarter of the file descriptors allows. Thread-safe but for add().
 class DatasetPool {
  public:
-  explicit DatasetPool(std::vector<std::string> paths) : paths_(std::move(paths)) {}
+  DatasetPool();
   ~DatasetPool();
   DatasetPool(const DatasetPool&) = delete;
   DatasetPool& operator=(const DatasetPool&) = delete;
 
-  /// Gives its dataset back to the pool when it goes.
+  /// The next input, counted from 0, and a dataset of it.
+  void add(const std::string& path, GDALDatasetUniquePtr dataset, Handles handles);
+
+  /// Gives its dataset back to the pool when it goes. A thread may hold one loan at a time.
   class Loan {
    public:
+    /// Throws UnreadableError when the input can't be opened again.
     Loan(DatasetPool& pool, std::size_t input) : pool_(pool), input_(input), dataset_(pool.take(input)) {}
     ~Loan() { pool_.give_back(input_, std::move(dataset_)); }
     Loan(const Loan&) = delete;
@@ -52,16 +76,24 @@ class DatasetPool {
   };
 
  private:
+  struct Input {
+    std::string path;
+    Handles handles = Handles::kOnePerThread;
+    bool is_lent = false;
+  };
   struct Idle {
     std::size_t input;
     GDALDatasetUniquePtr dataset;
   };
 
   GDALDatasetUniquePtr take(std::size_t input);
+  GDALDatasetUniquePtr take_idle(std::size_t input);
   void give_back(std::size_t input, GDALDatasetUniquePtr dataset) noexcept;
 
-  std::vector<std::string> paths_;
+  std::vector<Input> inputs_;
+  std::size_t max_idle_;
   std::mutex mutex_;
+  std::condition_variable returned_;
   std::list<Idle> idle_;  // last used first
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 // GDAL rasters as one field of heights. The only folder that names GDAL is this one.
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,22 +13,39 @@
 
 namespace tinsmith {
 
-/// One or several rasters of one grid (same CRS, same steps, origins a whole number of steps apart), read
-/// block-wise. Heights are band value * scale + offset in the vertical unit of the CRS or band. Where inputs
-/// overlap the first valid one wins. Void: nodata value, NaN, mask band, alpha = 0.
+/// One or thousands of rasters of one grid (same CRS, same steps, origins a whole number of steps apart), read
+/// block-wise at full resolution. Heights are band value * scale + offset in the vertical unit of the CRS or band.
+/// Where inputs overlap, options.overlap says which of the valid ones counts. Void: nodata value, NaN, mask band,
+/// alpha = 0, and with options.skip_unreadable what can't be opened or read.
 class RasterField : public HeightField {
  public:
-  /// Throws InputError when a file can't be opened, has no such band, or the grids don't match.
+  /// A path @FILE stands for the paths in FILE, one a line. Throws InputError when a file can't be opened, has no
+  /// such band, or the grids don't match; when all are skipped too.
   RasterField(const std::vector<std::string>& paths, const InputOptions& options);
   ~RasterField() override;
 
   std::int32_t width() const override;
   std::int32_t height() const override;
   HeightGrid read(const GridRect& rect) const override;
+  /// True outside of all inputs, and where GeoTIFFs and VRTs hold no block and their nodata is void. Microseconds.
+  bool is_surely_void(const GridRect& rect) const override;
 
   const GridFrame& frame() const;
-  /// What a user should be told once (no CRS: metres assumed; vertical unit guessed), one sentence each.
-  const std::vector<std::string>& remarks() const;
+
+  /// What a user should be told once (no CRS: metres assumed; vertical unit guessed; blocks that make windows
+  /// costly; inputs left as voids), one sentence each. Inputs that read() found damaged so far are among them.
+  std::vector<std::string> remarks() const;
+
+  /// Compares the inputs where they overlap (see compare_overlaps for how much of it): one sentence when they
+  /// disagree. Takes up to a sixteenth of a pass over the inputs. Throws UnreadableError.
+  std::optional<std::string> remark_on_overlaps() const;
+
+  /// Inputs that were left as voids, wholly or in part, as far as is known from what was read.
+  std::uint64_t n_unreadable() const;
+
+  /// The cache in bytes (set_raster_cache) with which no block is decoded twice while threads go through a row of
+  /// windows of `window` samples side by side: little for tiled rasters, all of the row for whole-row strips.
+  std::uint64_t cache_for_row(std::int32_t window, int threads) const;
 
  private:
   struct Impl;

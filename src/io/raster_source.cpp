@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <type_traits>
 
 #include "io/raster_dataset.hpp"
@@ -80,6 +81,18 @@ void require_usable_band(GDALDataset& dataset, const std::string& path, int band
                                path, band, GDALGetDataTypeName(type)));
 }
 
+// What GDAL makes of a block that the file does not hold: nodata, in a GeoTIFF without it 0. Only these drivers say
+// which blocks they hold; a VRT may hide its nodata, hence it has to declare it.
+bool knows_voids(GDALDataset& dataset, const RasterSource& source) {
+  const GDALDriver* driver = dataset.GetDriver();
+  const std::string_view name = driver == nullptr ? "" : driver->GetDescription();
+  if (name != "GTiff" && name != "COG" && name != "VRT") return false;
+  const std::optional<double> declared = declared_nodata(*dataset.GetRasterBand(source.band));
+  if (!declared && name == "VRT") return false;
+  const auto empty = nodata_in_type(declared.value_or(0), source.type, source.is_signed_byte);
+  return empty && is_void(*empty, source);
+}
+
 void read_scale(GDALRasterBand& band, RasterSource& source) {
   source.scale = band.GetScale();
   source.offset = band.GetOffset();
@@ -122,8 +135,8 @@ std::vector<Value> read_band(GDALRasterBand& band, const RasterSource& source, c
   const CPLErr status = band.RasterIO(GF_Read, rect.x0, rect.y0, rect.width, rect.height, values.data(), rect.width,
                                       rect.height, kType, 0, 0, nullptr);
   if (status == CE_None && CPLGetLastErrorType() < CE_Failure) return values;
-  throw InputError(fmt::format("{}: {} can't be read{}; the file seems damaged or cut short, get it again",
-                               source.path, place_of(rect), gdal_reason()));
+  throw UnreadableError(fmt::format("{}: {} can't be read{}; the file seems damaged or cut short, get it again",
+                                    source.path, place_of(rect), gdal_reason()));
 }
 
 void void_where_zero(std::vector<double>& heights, const std::vector<float>& mask) {
@@ -201,10 +214,20 @@ RasterSource read_source(GDALDataset& dataset, const std::string& path, const In
   if (nodata) source.nodata = nodata_in_type(*nodata, source.type, source.is_signed_byte);
   source.has_mask = has_own_mask(band) || has_nodata_of_all_bands(band, options);
   source.alpha_band = find_alpha_band(dataset, options.band);
+  band.GetBlockSize(&source.block_width, &source.block_height);
+  source.knows_voids = knows_voids(dataset, source);
   source.height_unit = band.GetUnitType();
   read_scale(band, source);
   read_georeference(dataset, source);
   return source;
+}
+
+bool is_surely_void(GDALDataset& dataset, const RasterSource& source, const GridRect& rect) {
+  if (!source.knows_voids) return false;
+  const QuietGdal quiet;
+  GDALRasterBand& band = *dataset.GetRasterBand(source.band);
+  return band.GetDataCoverageStatus(rect.x0, rect.y0, rect.width, rect.height, 0, nullptr) ==
+         GDAL_DATA_COVERAGE_STATUS_EMPTY;
 }
 
 std::vector<double> read_heights(GDALDataset& dataset, const RasterSource& source, const GridRect& rect) {

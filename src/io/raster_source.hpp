@@ -24,7 +24,10 @@ struct RasterSource {
   std::optional<double> nodata;  // as a value of the band's own type, none if no value can equal it
   bool has_mask = false;         // a mask band besides nodata
   int alpha_band = 0;            // 0: none
-  double scale = 1;              // height = value * scale + offset
+  std::int32_t block_width = 1;  // what is decoded at once
+  std::int32_t block_height = 1;
+  bool knows_voids = false;  // where the file holds no block, all samples are void, and it says where
+  double scale = 1;          // height = value * scale + offset
   double offset = 0;
   std::string height_unit;  // the band's unit type, may be empty
   std::string crs_wkt;      // may be empty
@@ -42,8 +45,12 @@ bool is_void(double value, const RasterSource& source);
 /// or the raster is only placed by control points; UsageError for band numbers below 1.
 RasterSource read_source(GDALDataset& dataset, const std::string& path, const InputOptions& options);
 
-/// The heights of a rectangle that lies inside the raster, row by row, NaN for voids. Throws InputError when it
-/// can't be read or holds an infinite height or one beyond any terrain, with the place in the file.
+/// Whether the file holds nothing of a rectangle that lies inside the raster: all of it is void.
+bool is_surely_void(GDALDataset& dataset, const RasterSource& source, const GridRect& rect);
+
+/// The heights of a rectangle that lies inside the raster, row by row, NaN for voids. Throws UnreadableError when
+/// it can't be read, InputError when it holds an infinite height or one beyond any terrain, with the place in the
+/// file.
 std::vector<double> read_heights(GDALDataset& dataset, const RasterSource& source, const GridRect& rect);
 
 }  // namespace tinsmith

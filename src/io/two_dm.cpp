@@ -1,73 +1,69 @@
 #include "io/two_dm.hpp"
 
+#include "io/mesh_file.hpp"
 #include "io/mesh_text.hpp"
 
 namespace tinsmith {
 namespace {
 
-constexpr std::string_view kVertex = "ND ";
-constexpr std::string_view kTriangle = "E3T ";
-
 /// The records are numbered; anything but 1, 2, 3... would need a map that no file of ours needs.
-void require_number(const InputFile& file, std::uint64_t number, std::size_t n_before) {
-  if (number != n_before + 1) file.fail("the numbers of vertices or triangles are not 1, 2, 3...");
+void require_number(LineNumbers& numbers, std::uint64_t n_before) {
+  if (numbers.count() != n_before + 1) numbers.fail("the numbers of vertices or triangles are not 1, 2, 3...");
 }
 
-void read_vertex(const InputFile& file, std::string_view line, Tin& tin) {
-  LineNumbers numbers(file, line.substr(kVertex.size()));
-  require_number(file, numbers.count(), tin.vertices.size());
-  tin.vertices.push_back({numbers.coordinate(), numbers.coordinate(), numbers.coordinate()});
-  numbers.end();
+std::array<double, 3> vertex_of(LineNumbers& numbers, std::uint64_t n_before) {
+  require_number(numbers, n_before);
+  return numbers.coordinates();
 }
 
-void read_triangle(const InputFile& file, std::string_view line, Tin& tin) {
-  LineNumbers numbers(file, line.substr(kTriangle.size()));
-  require_number(file, numbers.count(), tin.triangles.size());
-  tin.triangles.push_back({numbers.index(), numbers.index(), numbers.index()});
+std::array<std::uint64_t, 3> triangle_of(LineNumbers& numbers, std::uint64_t n_before) {
+  require_number(numbers, n_before);
+  const auto corners = numbers.corners();
   numbers.count();  // the material
-  numbers.end();
+  return corners;
 }
+
+bool is_ignored(std::string_view line) { return line.empty(); }
 
 }  // namespace
 
-void write_two_dm(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame) {
+void write_two_dm(const std::string& path, const TerrainSurface& surface, const GridFrame& frame) {
   FileWithPrj file(path, frame.crs_wkt);
   file.mesh().write("MESH2D\n");
-  file.mesh().write(counts_comment(mesh));
-  std::string line;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    line = std::string_view("E3T");
-    append_number(line, std::uint64_t{t + 1});
-    for (const std::uint64_t corner : turned(mesh.triangles[t], frame.is_mirrored()))
-      append_number(line, corner + 1);
-    file.mesh().write(line += " 1\n");
-  }
-  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
-    line = std::string_view("ND");
-    append_number(line, std::uint64_t{v + 1});
-    for (const double coordinate : vertex_in_crs(mesh, v, frame)) append_number(line, coordinate);
-    file.mesh().write(line += '\n');
-  }
+  file.mesh().write(counts_comment(surface.extent().n_vertices, surface.extent().n_triangles));
+  std::string lines;
+  std::uint64_t number = 0;
+  surface.for_each_triangle_block([&](TerrainSurface::TriangleBlock triangles) {
+    lines.clear();
+    for (const auto& triangle : triangles) {
+      lines += "E3T";
+      append_number(lines, ++number);
+      for (const std::uint64_t corner : turned(triangle, frame.is_mirrored())) append_number(lines, corner + 1);
+      lines += " 1\n";
+    }
+    file.mesh().write(lines);
+  });
+  number = 0;
+  surface.for_each_vertex_block([&](TerrainSurface::VertexBlock vertices) {
+    lines.clear();
+    for (const TerrainVertex& vertex : vertices) {
+      lines += "ND";
+      append_number(lines, ++number);
+      for (const double coordinate : vertex_in_crs(vertex, frame)) append_number(lines, coordinate);
+      lines += '\n';
+    }
+    file.mesh().write(lines);
+  });
   file.commit();
 }
 
-Tin read_two_dm(const std::string& path) {
+std::string visit_two_dm(const std::string& path, const MeshVisitor& visitor) {
   InputFile file(path);
   std::string_view line;
   if (!file.read_line(line) || line != "MESH2D") file.fail("does not begin with MESH2D");
-  Tin tin;
-  tin.crs_wkt = read_prj(path);
-  TextCounts counts;
-  while (file.read_line(line)) {
-    if (line.starts_with(kVertex))
-      read_vertex(file, line, tin);
-    else if (line.starts_with(kTriangle))
-      read_triangle(file, line, tin);
-    else if (!counts.read_comment(file, line) && !line.empty())
-      file.fail("a line is neither a vertex nor a triangle");
-  }
-  counts.require_whole(file, tin);
-  return tin;
+  std::string crs_wkt = read_prj(path);
+  visit_text(file, {"ND ", "E3T ", vertex_of, triangle_of, is_ignored}, visitor);
+  return crs_wkt;
 }
 
 }  // namespace tinsmith

@@ -13,27 +13,38 @@ namespace {
 struct Segment {
   PlanPoint from;
   PlanPoint to;
-  Corners corners;  // of its triangle
+  const Facet* facet;  // that it is an edge of
 };
 
-Segment segment_of(const PlanMesh& mesh, std::uint32_t corner) {
-  const Corners& corners = mesh.triangles[corner / 3];
-  return {mesh.position[corners[corner % 3]], mesh.position[corners[(corner + 1) % 3]], corners};
+struct BorderVertex {
+  std::uint32_t number;
+  PlanPoint position;
+};
+
+Segment segment_of(const Block& block, std::uint32_t corner) {
+  const Facet& facet = block.facets[corner / 3];
+  return {facet.position[corner % 3], facet.position[(corner + 1) % 3], &facet};
 }
 
-std::vector<std::uint32_t> border_vertices(const PlanMesh& mesh, const BorderEdges& border) {
-  std::vector<std::uint32_t> vertices;
-  for (const std::uint32_t corner : border)
-    for (const std::uint32_t k : {corner % 3, (corner + 1) % 3}) vertices.push_back(mesh.triangles[corner / 3][k]);
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+/// Those that the block owns.
+std::vector<BorderVertex> border_vertices(const Block& block, const BorderEdges& border) {
+  std::vector<BorderVertex> vertices;
+  for (const std::uint32_t corner : border) {
+    const Facet& facet = block.facets[corner / 3];
+    for (const std::size_t k : {corner % 3, (corner + 1) % 3})
+      if (block.owns(facet.position[k])) vertices.push_back({facet.vertices[k], facet.position[k]});
+  }
+  const auto is_less = [](const BorderVertex& v, const BorderVertex& w) { return v.number < w.number; };
+  const auto is_same = [](const BorderVertex& v, const BorderVertex& w) { return v.number == w.number; };
+  std::sort(vertices.begin(), vertices.end(), is_less);
+  vertices.erase(std::unique(vertices.begin(), vertices.end(), is_same), vertices.end());
   return vertices;
 }
 
 /// Buckets of a regular grid over the vertices, about one for each vertex.
 class Buckets {
  public:
-  Buckets(const PlanMesh& mesh, std::vector<std::uint32_t> vertices);
+  explicit Buckets(std::vector<BorderVertex> vertices);
 
   /// Visits all vertices near the segment, some of them that are not.
   template <class Visit>
@@ -51,14 +62,13 @@ class Buckets {
   std::size_t n_columns_ = 1;
   std::size_t n_rows_ = 1;
   std::vector<std::size_t> start_;  // of each bucket, and the end
-  std::vector<std::uint32_t> vertices_;
+  std::vector<BorderVertex> vertices_;
 };
 
-Buckets::Buckets(const PlanMesh& mesh, std::vector<std::uint32_t> vertices) : vertices_(std::move(vertices)) {
+Buckets::Buckets(std::vector<BorderVertex> vertices) : vertices_(std::move(vertices)) {
   if (vertices_.empty()) return;
-  PlanPoint high = low_ = mesh.position[vertices_[0]];
-  for (const std::uint32_t v : vertices_) {
-    const PlanPoint& p = mesh.position[v];
+  PlanPoint high = low_ = vertices_[0].position;
+  for (const auto& [number, p] : vertices_) {
     low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
@@ -69,14 +79,14 @@ Buckets::Buckets(const PlanMesh& mesh, std::vector<std::uint32_t> vertices) : ve
   size_ = std::max({std::sqrt(width * length / n), std::max(width, length) / n, kPlanEpsilon});
   n_columns_ = static_cast<std::size_t>(width / size_) + 1;
   n_rows_ = static_cast<std::size_t>(length / size_) + 1;
-  const auto bucket_of = [&](std::uint32_t v) {
-    return row_of(mesh.position[v].y) * n_columns_ + column_of(mesh.position[v].x);
+  const auto bucket_of = [&](const BorderVertex& v) {
+    return row_of(v.position.y) * n_columns_ + column_of(v.position.x);
   };
-  std::sort(vertices_.begin(), vertices_.end(), [&](std::uint32_t v, std::uint32_t w) {
-    return std::tuple(bucket_of(v), v) < std::tuple(bucket_of(w), w);
+  std::sort(vertices_.begin(), vertices_.end(), [&](const BorderVertex& v, const BorderVertex& w) {
+    return std::tuple(bucket_of(v), v.number) < std::tuple(bucket_of(w), w.number);
   });
   start_.assign(n_columns_ * n_rows_ + 1, 0);
-  for (const std::uint32_t v : vertices_) ++start_[bucket_of(v) + 1];
+  for (const BorderVertex& v : vertices_) ++start_[bucket_of(v) + 1];
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
 }
 
@@ -113,28 +123,30 @@ bool is_inside(const PlanPoint& p, const Segment& s) {
   return along > kPlanEpsilon && along < length - kPlanEpsilon && std::abs(across) <= kPlanEpsilon;
 }
 
-std::uint64_t count_t_junctions(const PlanMesh& mesh, const BorderEdges& border) {
-  std::vector<std::uint32_t> vertices = border_vertices(mesh, border);
+std::uint64_t count_t_junctions(const Block& block, const BorderEdges& border) {
+  std::vector<BorderVertex> vertices = border_vertices(block, border);
+  if (vertices.empty()) return 0;
   std::vector<bool> is_junction(vertices.size(), false);
-  const Buckets buckets(mesh, std::move(vertices));
+  const Buckets buckets(std::move(vertices));
   for (const std::uint32_t corner : border) {
-    const Segment segment = segment_of(mesh, corner);
-    buckets.for_each_near(segment, [&](std::size_t i, std::uint32_t v) {
-      const bool is_own = std::find(segment.corners.begin(), segment.corners.end(), v) != segment.corners.end();
-      if (!is_own && is_inside(mesh.position[v], segment)) is_junction[i] = true;
+    const Segment segment = segment_of(block, corner);
+    const auto& own = segment.facet->vertices;
+    buckets.for_each_near(segment, [&](std::size_t i, const BorderVertex& v) {
+      const bool is_own = std::find(own.begin(), own.end(), v.number) != own.end();
+      if (!is_own && is_inside(v.position, segment)) is_junction[i] = true;
     });
   }
   return static_cast<std::uint64_t>(std::count(is_junction.begin(), is_junction.end(), true));
 }
 
-std::uint64_t count_unwelded_edges(const PlanMesh& mesh, const BorderEdges& border) {
+/// An edge belongs to the block of its end that comes first in plan, which its twins share.
+std::uint64_t count_unwelded_edges(const Block& block, const BorderEdges& border) {
   using Place = std::array<double, 4>;
   std::vector<Place> places;
-  places.reserve(border.size());
   for (const std::uint32_t corner : border) {
-    const auto [p, q, corners] = segment_of(mesh, corner);
-    const bool is_sorted = std::tie(p.x, p.y) < std::tie(q.x, q.y);
-    places.push_back(is_sorted ? Place{p.x, p.y, q.x, q.y} : Place{q.x, q.y, p.x, p.y});
+    auto [p, q, facet] = segment_of(block, corner);
+    if (std::tie(q.x, q.y) < std::tie(p.x, p.y)) std::swap(p, q);
+    if (block.owns(p)) places.push_back({p.x, p.y, q.x, q.y});
   }
   std::sort(places.begin(), places.end());
   return static_cast<std::uint64_t>(places.end() - std::unique(places.begin(), places.end()));
@@ -142,9 +154,9 @@ std::uint64_t count_unwelded_edges(const PlanMesh& mesh, const BorderEdges& bord
 
 }  // namespace
 
-void measure_border(const PlanMesh& mesh, const BorderEdges& border, Certificate& certificate) {
-  certificate.t_junctions = count_t_junctions(mesh, border);
-  certificate.unwelded_edges = count_unwelded_edges(mesh, border);
+void measure_border(const Block& block, const BorderEdges& border, Findings& findings) {
+  findings.counts.t_junctions += count_t_junctions(block, border);
+  findings.counts.unwelded_edges += count_unwelded_edges(block, border);
 }
 
 }  // namespace tinsmith

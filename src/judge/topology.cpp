@@ -1,136 +1,136 @@
 #include "judge/topology.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <bit>
+#include <compare>
 #include <numeric>
-#include <span>
 
-#include "tinsmith/error.hpp"
+#include "judge/sets.hpp"
 
 namespace tinsmith {
 namespace {
 
-/// Union-find; the smallest member stands for its set.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t i, std::uint32_t j) {
-    const auto [low, high] = std::minmax({find(i), find(j)});
-    parent_[high] = low;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 std::uint32_t next_corner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
-std::uint32_t vertex_at(const PlanMesh& mesh, std::uint32_t corner) {
-  return mesh.triangles[corner / 3][corner % 3];
+std::uint32_t vertex_at(const Block& block, std::uint32_t corner) {
+  return block.facets[corner / 3].vertices[corner % 3];
 }
 
-/// A triangle's use of an edge, from the corner to the next one, kept with the edge's lower vertex.
+const PlanPoint& place_at(const Block& block, std::uint32_t corner) {
+  return block.facets[corner / 3].position[corner % 3];
+}
+
+std::uint32_t n_corners(const Block& block) { return static_cast<std::uint32_t>(3 * block.facets.size()); }
+
+/// A facet's use of an edge, from the corner to the next one.
 struct EdgeUse {
+  std::uint32_t low_vertex;
   std::uint32_t high_vertex;
   std::uint32_t corner;
 
-  friend bool operator<(const EdgeUse& a, const EdgeUse& b) {
-    return a.high_vertex != b.high_vertex ? a.high_vertex < b.high_vertex : a.corner < b.corner;
-  }
+  friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
 };
 
-/// All uses of edges, those of one lower vertex together and sorted.
+/// All uses of edges, in bins by the lower vertex; sorted within a bin, so that those of one edge are together.
 struct EdgeUses {
-  std::vector<std::size_t> start;  // of each lower vertex, and the end
+  std::vector<std::uint32_t> start;  // of each bin, and the end
   std::vector<EdgeUse> uses;
 };
 
 template <class Visit>
-void for_each_use(const PlanMesh& mesh, Visit visit) {
-  for (std::uint32_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
-    const std::uint32_t from = vertex_at(mesh, corner);
-    const std::uint32_t to = vertex_at(mesh, next_corner(corner));
-    if (from != to) visit(std::min(from, to), EdgeUse{std::max(from, to), corner});
+void for_each_use(const Block& block, Visit visit) {
+  for (std::uint32_t corner = 0; corner < n_corners(block); ++corner) {
+    const std::uint32_t from = vertex_at(block, corner);
+    const std::uint32_t to = vertex_at(block, next_corner(corner));
+    if (from != to) visit(EdgeUse{std::min(from, to), std::max(from, to), corner});
   }
 }
 
-EdgeUses sort_uses(const PlanMesh& mesh) {
+/// A block holds few of a mesh's vertices, with numbers from everywhere: about one bin for each of them.
+EdgeUses sort_uses(const Block& block) {
+  const std::size_t mask = std::bit_ceil(block.facets.size() + 1) - 1;
   EdgeUses sorted;
-  sorted.start.assign(mesh.position.size() + 2, 0);
-  for_each_use(mesh, [&](std::uint32_t low, EdgeUse) { ++sorted.start[low + 2]; });
+  sorted.start.assign(mask + 3, 0);
+  for_each_use(block, [&](const EdgeUse& use) { ++sorted.start[(use.low_vertex & mask) + 2]; });
   std::partial_sum(sorted.start.begin(), sorted.start.end(), sorted.start.begin());
   sorted.uses.resize(sorted.start.back());
-  // The start of `low` moves from place low + 1 up to where that of low + 1 belongs.
-  for_each_use(mesh, [&](std::uint32_t low, EdgeUse use) { sorted.uses[sorted.start[low + 1]++] = use; });
-  for (std::size_t low = 0; low < mesh.position.size(); ++low)
-    std::sort(sorted.uses.begin() + static_cast<std::ptrdiff_t>(sorted.start[low]),
-              sorted.uses.begin() + static_cast<std::ptrdiff_t>(sorted.start[low + 1]));
+  // The start of `bin` moves from place bin + 1 up to where that of bin + 1 belongs.
+  for_each_use(block, [&](const EdgeUse& use) { sorted.uses[sorted.start[(use.low_vertex & mask) + 1]++] = use; });
+  for (std::size_t bin = 0; bin <= mask; ++bin)
+    std::sort(sorted.uses.begin() + sorted.start[bin], sorted.uses.begin() + sorted.start[bin + 1]);
   return sorted;
 }
 
 /// What the edges, taken one by one, say about the whole.
 struct Connections {
-  explicit Connections(const PlanMesh& mesh)
-      : triangles(mesh.triangles.size()), corners(3 * mesh.triangles.size()) {}
-  Sets triangles;  // connected by edges
-  Sets corners;    // of one vertex, connected by edges: the fans
+  explicit Connections(const Block& block) : facets(block.facets.size()), corners(n_corners(block)) {}
+  Sets facets;   // connected by edges
+  Sets corners;  // of one vertex, connected by edges: the fans
   BorderEdges border;
   std::uint64_t n_non_manifold = 0;
 };
 
-void connect(const PlanMesh& mesh, std::span<const EdgeUse> edge, Connections& connections) {
-  const auto runs_up = [&](EdgeUse use) { return vertex_at(mesh, use.corner) != use.high_vertex; };
-  const auto low_corner = [&](EdgeUse use) { return runs_up(use) ? use.corner : next_corner(use.corner); };
-  const auto high_corner = [&](EdgeUse use) { return runs_up(use) ? next_corner(use.corner) : use.corner; };
+void connect(const Block& block, std::span<const EdgeUse> edge, Connections& connections) {
+  const auto runs_up = [&](const EdgeUse& use) { return vertex_at(block, use.corner) == use.low_vertex; };
+  const auto low_corner = [&](const EdgeUse& use) { return runs_up(use) ? use.corner : next_corner(use.corner); };
+  const auto high_corner = [&](const EdgeUse& use) { return runs_up(use) ? next_corner(use.corner) : use.corner; };
   if (edge.size() == 1) connections.border.push_back(edge[0].corner);
-  if (edge.size() > 2 || (edge.size() == 2 && runs_up(edge[0]) == runs_up(edge[1]))) ++connections.n_non_manifold;
+  if (edge.size() > 2 || (edge.size() == 2 && runs_up(edge[0]) == runs_up(edge[1])))
+    connections.n_non_manifold += block.owns(place_at(block, low_corner(edge[0])));
   for (const EdgeUse& use : edge.subspan(1)) {
-    connections.triangles.unite(edge[0].corner / 3, use.corner / 3);
+    connections.facets.unite(edge[0].corner / 3, use.corner / 3);
     connections.corners.unite(low_corner(edge[0]), low_corner(use));
     connections.corners.unite(high_corner(edge[0]), high_corner(use));
   }
 }
 
-void connect_all(const PlanMesh& mesh, Connections& connections) {
-  const EdgeUses sorted = sort_uses(mesh);
-  for (std::size_t low = 0; low < mesh.position.size(); ++low) {
-    const std::size_t end = sorted.start[low + 1];
-    for (std::size_t i = sorted.start[low]; i < end;) {
-      std::size_t j = i + 1;
-      while (j < end && sorted.uses[j].high_vertex == sorted.uses[i].high_vertex) ++j;
-      connect(mesh, {&sorted.uses[i], j - i}, connections);
-      i = j;
-    }
+void connect_all(const Block& block, Connections& connections) {
+  const std::vector<EdgeUse> uses = std::move(sort_uses(block).uses);
+  for (std::size_t i = 0; i < uses.size();) {
+    std::size_t j = i + 1;
+    while (j < uses.size() && uses[j].low_vertex == uses[i].low_vertex &&
+           uses[j].high_vertex == uses[i].high_vertex)
+      ++j;
+    connect(block, {&uses[i], j - i}, connections);
+    i = j;
   }
 }
 
-std::uint64_t count_vertices_of_several_fans(const PlanMesh& mesh, Sets& corners) {
-  std::vector<std::uint8_t> n_fans(mesh.position.size(), 0);
-  std::uint64_t n_vertices = 0;
-  for (std::uint32_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
-    std::uint8_t& n = n_fans[vertex_at(mesh, corner)];
-    if (corners.find(corner) != corner || n == 2) continue;
-    if (++n == 2) ++n_vertices;
+/// Of those that the block owns.
+std::uint64_t count_vertices_of_several_fans(const Block& block, Sets& corners) {
+  std::vector<std::uint32_t> fans;  // one entry for each fan: its vertex
+  for (std::uint32_t corner = 0; corner < n_corners(block); ++corner)
+    if (corners.find(corner) == corner && block.owns(place_at(block, corner)))
+      fans.push_back(vertex_at(block, corner));
+  std::sort(fans.begin(), fans.end());
+  std::uint64_t n = 0;
+  for (std::size_t i = 1; i < fans.size(); ++i)
+    n += fans[i] == fans[i - 1] && (i == 1 || fans[i - 1] != fans[i - 2]);
+  return n;
+}
+
+/// A component that other blocks see too is linked by the first of its facets that they see.
+void add_components(const Block& block, Sets& facets, Findings& findings) {
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> first_shared(block.facets.size(), kNone);
+  for (std::uint32_t f = 0; f < block.facets.size(); ++f) {
+    if (block.grid.is_in_one_block(block.facets[f])) continue;
+    std::uint32_t& first = first_shared[facets.find(f)];
+    if (first == kNone) first = f;
+    findings.links.push_back({block.facets[first].number, block.facets[f].number});
   }
-  return n_vertices;
+  for (std::uint32_t f = 0; f < block.facets.size(); ++f)
+    if (facets.find(f) == f && first_shared[f] == kNone) ++findings.counts.components;
 }
 
 }  // namespace
 
-BorderEdges measure_topology(const PlanMesh& mesh, Certificate& certificate) {
-  if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max() / 3)
-    throw ResourceError(
-        "a mesh of more than 1431655765 triangles can't be verified in one piece; verify its tiles");
-  Connections connections(mesh);
-  connect_all(mesh, connections);
-  certificate.non_manifold_edges = connections.n_non_manifold;
-  certificate.non_manifold_vertices = count_vertices_of_several_fans(mesh, connections.corners);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    if (connections.triangles.find(t) == t) ++certificate.components;
+BorderEdges measure_topology(const Block& block, Findings& findings) {
+  Connections connections(block);
+  connect_all(block, connections);
+  findings.counts.non_manifold_edges += connections.n_non_manifold;
+  findings.counts.non_manifold_vertices += count_vertices_of_several_fans(block, connections.corners);
+  add_components(block, connections.facets, findings);
   return std::move(connections.border);
 }
 

@@ -1,22 +1,35 @@
 #pragma once
-// How the triangles of a mesh hang together, by their indices alone and then in plan.
+// How the triangles of a block hang together, by their indices alone and then in plan. A block sees all triangles
+// that touch it: everything about its vertices, and about edges that touch it, can be told here.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "judge/plan_mesh.hpp"
-#include "tinsmith/certificate.hpp"
+#include "judge/block_grid.hpp"
+#include "judge/findings.hpp"
+#include "judge/plan.hpp"
 
 namespace tinsmith {
 
-/// A border edge runs from corner `corner % 3` of triangle `corner / 3` to the next corner.
+struct Block {
+  const BlockGrid& grid;
+  BlockNumber number;
+  std::span<const Facet> facets;
+
+  /// Places, vertices and edges belong to one block each.
+  bool owns(const PlanPoint& p) const { return grid.block_of(p) == number; }
+};
+
+/// Runs from corner `corner % 3` of facet `corner / 3` of the block to the next corner.
 using BorderEdges = std::vector<std::uint32_t>;
 
-/// Fills non_manifold_edges, non_manifold_vertices and components; gives the edges of one triangle only, by
-/// their lower vertex. Throws ResourceError beyond 2^32 / 3 triangles.
-BorderEdges measure_topology(const PlanMesh& mesh, Certificate& certificate);
+/// Adds non_manifold_edges (an edge is its lower vertex's block's), non_manifold_vertices, the components that lie
+/// in this block only, and links for the others. Gives the edges of one facet only, right for those that touch
+/// the block.
+BorderEdges measure_topology(const Block& block, Findings& findings);
 
-/// Fills t_junctions and unwelded_edges.
-void measure_border(const PlanMesh& mesh, const BorderEdges& border, Certificate& certificate);
+/// Adds t_junctions and unwelded_edges.
+void measure_border(const Block& block, const BorderEdges& border, Findings& findings);
 
 }  // namespace tinsmith

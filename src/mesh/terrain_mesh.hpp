@@ -24,7 +24,8 @@ struct TerrainVertex {
   double height = 0;  // vertical unit of the input
 };
 
-/// What a writer must know before the first vertex.
+/// What a writer must know before the first vertex. All of it is exact: .glb declares it, and finds its origin by
+/// it.
 struct TerrainExtent {
   std::uint64_t n_vertices = 0;
   std::uint64_t n_triangles = 0;

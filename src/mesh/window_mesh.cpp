@@ -12,6 +12,7 @@ std::int32_t copy_vertex(WindowMesh& mesh, std::int32_t v) {
   mesh.position.push_back(mesh.position[at(v)]);
   mesh.height.push_back(mesh.height[at(v)]);
   mesh.is_settled.push_back(mesh.is_settled[at(v)]);
+  if (!mesh.colour.empty()) mesh.colour.push_back(mesh.colour[at(v)]);
   mesh.kind.push_back(VertexKind::kLocked);
   mesh.out.push_back(kNone);
   return mesh.n_vertices() - 1;

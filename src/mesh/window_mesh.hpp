@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/colour.hpp"
 #include "geometry/lattice.hpp"
 #include "mesh/halfedges.hpp"
 #include "mesh/vertex_kind.hpp"
@@ -20,6 +21,7 @@ struct WindowMesh : Halfedges {
   std::vector<double> height;
   std::vector<VertexKind> kind;
   std::vector<std::uint8_t> is_settled;  // was free among free neighbours in an earlier round
+  std::vector<Colour> colour;            // empty: the surface has none
 
   std::int32_t n_vertices() const { return static_cast<std::int32_t>(position.size()); }
 };

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "geometry/colour.hpp"
 #include "geometry/vertical_quadric.hpp"
 #include "mesh/window_mesh.hpp"
 #include "tinsmith/options.hpp"
@@ -32,11 +33,23 @@ struct EdgeEnd {
   const VerticalQuadric* quadric = nullptr;
 };
 
+/// The quadrics of a vertex, one for each channel of its colour, in height units.
+using ChannelQuadrics = std::array<VerticalQuadric, kMaxChannels>;
+
+/// The colour of an edge, in height units.
+struct EdgeColour {
+  std::size_t n_channels = 0;
+  std::array<double, kMaxChannels> rise{};  // from v0 to v1
+  const ChannelQuadrics* v0 = nullptr;
+  const ChannelQuadrics* v1 = nullptr;
+};
+
 /// An edge as its placement sees it.
 struct Edge {
   EdgeEnd v0;
   EdgeEnd v1;
-  bool is_border = false;  // has one triangle only
+  bool is_border = false;              // has one triangle only
+  const EdgeColour* colour = nullptr;  // none: height alone counts
 };
 
 struct PlacementRules {
@@ -46,8 +59,8 @@ struct PlacementRules {
   double slope_noise = 0;
 };
 
-/// The quadric error of the edge's new vertex where it is least under the rules of the vertex kinds; infinity
-/// when the edge never collapses.
+/// The quadric error (of height and colour) of the edge's new vertex where it is least under the rules of the
+/// vertex kinds; infinity when the edge never collapses.
 double edge_cost(const Edge& edge, const PlacementRules& rules);
 
 /// Where to try to put the new vertex.

@@ -26,7 +26,7 @@ constexpr std::size_t kMaxStar = 64;
 // One run over one mesh: the loop, and all that it remembers of vertices, edges and triangles.
 class Simplifier {
  public:
-  Simplifier(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options)
+  Simplifier(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options, const ColourGrid* colours)
       : mesh_(mesh),
         samples_(samples),
         options_(options),
@@ -36,7 +36,15 @@ class Simplifier {
         vertex_(mesh.position.size()),
         edge_(mesh.origin.size()),
         mark_(mesh.position.size(), 0),
-        queue_(mesh.position.size()) {}
+        queue_(mesh.position.size()),
+        colours_(colours) {
+    if (colours_ == nullptr) return;
+    colour_slope_.resize(slope_.size());
+    colour_quadric_.resize(quadric_.size());
+    const auto n_channels = static_cast<double>(colours_->channels.size());
+    height_per_level_ =
+        std::sqrt(options.colour.weight / n_channels) * options.tolerance / options.colour.tolerance;
+  }
 
   SimplifyCounts run() {
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); h += 3) measure_slope(h);
@@ -51,6 +59,7 @@ class Simplifier {
       refine();
       collapse_all();
     }
+    if (colours_ != nullptr) fit_colours();
     return counts_;
   }
 
@@ -75,6 +84,12 @@ class Simplifier {
     float area = 0;
   };
 
+  // Of a triangle, by channel: levels as height units, per cell.
+  struct ColourSlope {
+    std::array<float, kMaxChannels> x{};
+    std::array<float, kMaxChannels> y{};
+  };
+
   struct EdgeState {
     float cost = kUnknown;  // of when one of its ends moved last: what has changed beside them matters less
     std::uint32_t refused_at = kNever;  // until one of its ends changes: then the sum of their versions has grown
@@ -92,8 +107,12 @@ class Simplifier {
   // ---- refinement: what changes goes to the front of the queue, to be looked at anew
 
   void refine() {
-    const RefineBound bound{samples_, options_.tolerance, options_.placement == Placement::kOptimal,
-                            options_.labour.directions};
+    const RefineBound bound{samples_,
+                            options_.tolerance,
+                            options_.placement == Placement::kOptimal,
+                            options_.labour.directions,
+                            colours_,
+                            height_per_level_ * height_per_level_};
     for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
       if (!mesh_.is_alive(v) || vertex_[at(v)].is_refined) continue;
       vertex_[at(v)].is_refined = true;
@@ -146,7 +165,9 @@ class Simplifier {
   }
 
   Edge placed_edge(std::int32_t h) {
-    return {end(mesh_.origin[at(h)]), end(mesh_.destination(h)), mesh_.is_border_edge(h)};
+    const std::int32_t v0 = mesh_.origin[at(h)];
+    const std::int32_t v1 = mesh_.destination(h);
+    return {end(v0), end(v1), mesh_.is_border_edge(h), colours_ == nullptr ? nullptr : edge_colour(v0, v1)};
   }
 
   bool is_refused(std::int32_t h) { return edge(h).refused_at == edge_version(h); }
@@ -243,6 +264,10 @@ class Simplifier {
         continue;
       }
       if (candidate.has_fixed_height && !(interval.lowest <= 0 && 0 <= interval.highest)) continue;
+      if (colours_ != nullptr && !keeps_colours(h, candidate.position)) {
+        ++counts_.refused_colour;
+        return false;
+      }
       const double offset = candidate.has_fixed_height ? 0 : interval.best();
       apply(h, {candidate.position, candidate.height + offset}, cost_class);
       return true;
@@ -295,14 +320,21 @@ class Simplifier {
     return has_neighbour(h) && (mesh_.is_border_edge(h) || has_neighbour(mesh_.twin[at(h)]));
   }
 
-  void apply(std::int32_t h, const Place& place, std::size_t cost_class) {
-    ++counts_.collapses;
-    // The survivor is the end of the higher kind: a locked vertex is known elsewhere by its place.
+  // The end of the higher kind: a locked vertex is known elsewhere by its place.
+  std::int32_t survivor(std::int32_t h) const {
     const std::int32_t v0 = mesh_.origin[at(h)];
     const std::int32_t v1 = mesh_.destination(h);
-    const std::int32_t kept = mesh_.kind[at(v0)] > mesh_.kind[at(v1)] ? v0 : v1;
+    return mesh_.kind[at(v0)] > mesh_.kind[at(v1)] ? v0 : v1;
+  }
+
+  void apply(std::int32_t h, const Place& place, std::size_t cost_class) {
+    ++counts_.collapses;
+    const std::int32_t v0 = mesh_.origin[at(h)];
+    const std::int32_t v1 = mesh_.destination(h);
+    const std::int32_t kept = survivor(h);
     const std::int32_t gone = kept == v0 ? v1 : v0;
     collapse_edge(mesh_, h, kept, place);
+    if (colours_ != nullptr) mesh_.colour[at(kept)] = new_colour_;
     // Higher than either was: edges that change hands must not look refused.
     vertex_[at(kept)].version = std::max(vertex_[at(kept)].version, vertex_[at(gone)].version);
     refresh_star(kept, cost_class);
@@ -322,6 +354,7 @@ class Simplifier {
       q.add(slope.x, slope.y, slope.area);
     });
     quadric_[at(v)] = q;
+    if (colours_ != nullptr) sum_colour_quadrics(v);
   }
 
   // The triangle of h has come into being or has changed.
@@ -333,6 +366,73 @@ class Simplifier {
     const Plane plane = plane_through(a, b, c);
     slope_[at(h / 3)] = {static_cast<float>(plane.dx), static_cast<float>(plane.dy),
                          static_cast<float>(orient(a.position, b.position, c.position))};
+    if (colours_ != nullptr) measure_colour_slope(h);
+  }
+
+  // ---- colour
+
+  // Notes the new vertex's colour. False when the samples of the star would be too far from it.
+  bool keeps_colours(std::int32_t h, LatticePoint p) {
+    const std::int32_t v0 = mesh_.origin[at(h)];
+    const std::int32_t v1 = mesh_.destination(h);
+    const std::int32_t kept = survivor(h);
+    colour_star_.clear();
+    add_colour_sides(mesh_, v0, v1, colour_star_);
+    add_colour_sides(mesh_, v1, v0, colour_star_);
+    const ColourFit fit = fit_colour(colour_star_, *colours_, p);
+    const Colour& old = mesh_.colour[at(kept)];
+    new_colour_ = mesh_.kind[at(kept)] == VertexKind::kLocked ? old : fit.best(old);
+    const double tolerance = options_.colour.tolerance;
+    const double allowed = tolerance * tolerance * static_cast<double>(fit.n_channels) * area_of(colour_star_, p);
+    return fit.squared_error(new_colour_) <= allowed;
+  }
+
+  const EdgeColour* edge_colour(std::int32_t v0, std::int32_t v1) {
+    edge_colour_.n_channels = colours_->channels.size();
+    edge_colour_.v0 = &colour_quadric_[at(v0)];
+    edge_colour_.v1 = &colour_quadric_[at(v1)];
+    for (std::size_t c = 0; c < edge_colour_.n_channels; ++c)
+      edge_colour_.rise[c] =
+          height_per_level_ * static_cast<double>(mesh_.colour[at(v1)][c] - mesh_.colour[at(v0)][c]);
+    return &edge_colour_;
+  }
+
+  void sum_colour_quadrics(std::int32_t v) {
+    ChannelQuadrics& quadrics = colour_quadric_[at(v)];
+    quadrics = {};
+    for_each_out(mesh_, v, [&](std::int32_t h) {
+      const ColourSlope& slope = colour_slope_[at(h / 3)];
+      for (std::size_t c = 0; c < colours_->channels.size(); ++c)
+        quadrics[c].add(slope.x[c], slope.y[c], slope_[at(h / 3)].area);
+    });
+  }
+
+  void measure_colour_slope(std::int32_t h) {
+    ColourSlope& slope = colour_slope_[at(h / 3)];
+    const std::int32_t n = WindowMesh::next(h);
+    for (std::size_t c = 0; c < colours_->channels.size(); ++c) {
+      const auto level = [&](std::int32_t v) {
+        return Corner{mesh_.position[at(v)], height_per_level_ * static_cast<double>(mesh_.colour[at(v)][c])};
+      };
+      const Plane plane =
+          plane_through(level(mesh_.origin[at(h)]), level(mesh_.origin[at(n)]), level(mesh_.destination(n)));
+      slope.x[c] = static_cast<float>(plane.dx);
+      slope.y[c] = static_cast<float>(plane.dy);
+    }
+  }
+
+  // Gives every vertex that has had its turn the colour that fits best beside its neighbours', a few times round.
+  void fit_colours() {
+    constexpr int kSweeps = 4;
+    for (int i = 0; i < kSweeps; ++i) {
+      for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
+        if (!mesh_.is_alive(v) || vertex_[at(v)].version == 0 || mesh_.kind[at(v)] == VertexKind::kLocked) continue;
+        colour_star_.clear();
+        add_colour_sides(mesh_, v, kNone, colour_star_);
+        const ColourFit fit = fit_colour(colour_star_, *colours_, mesh_.position[at(v)]);
+        mesh_.colour[at(v)] = fit.best(mesh_.colour[at(v)]);
+      }
+    }
   }
 
   WindowMesh& mesh_;
@@ -348,6 +448,13 @@ class Simplifier {
   BucketQueue queue_;
   Star star_;
   SimplifyCounts counts_;
+  const ColourGrid* colours_;                    // none: what follows is empty
+  double height_per_level_ = 0;                  // what makes levels and heights weigh alike
+  std::vector<ColourSlope> colour_slope_;        // by triangle
+  std::vector<ChannelQuadrics> colour_quadric_;  // by vertex
+  EdgeColour edge_colour_;
+  ColourStar colour_star_;
+  Colour new_colour_{};
 };
 
 }  // namespace
@@ -372,8 +479,9 @@ Labour labour_of(Effort effort) {
   return {};
 }
 
-SimplifyCounts simplify(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options) {
-  return Simplifier(mesh, samples, options).run();
+SimplifyCounts simplify(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options,
+                        const ColourGrid* colours) {
+  return Simplifier(mesh, samples, options, colours).run();
 }
 
 }  // namespace tinsmith

@@ -9,7 +9,9 @@
 #include <limits>
 
 #include "mesh/window_mesh.hpp"
+#include "samples/colour_grid.hpp"
 #include "samples/height_grid.hpp"
+#include "simplify/colour_fit.hpp"
 #include "tinsmith/options.hpp"
 
 namespace tinsmith {
@@ -29,6 +31,7 @@ struct SimplifyOptions {
   Placement placement = Placement::kOptimal;
   Labour labour;
   bool only_unsettled = false;  // start only from vertices that are not settled, and from what changes around them
+  ColourOptions colour = {};    // of meshes that have colours
 };
 
 /// What happened, for reports and for tests that want to know that they tested something.
@@ -39,10 +42,14 @@ struct SimplifyCounts {
   std::uint64_t refused_topology = 0;    // link condition, shape, valence
   std::uint64_t refused_half_space = 0;  // every candidate outside the kernel
   std::uint64_t refused_bound = 0;       // no feasible height at any candidate
+  std::uint64_t refused_colour = 0;      // heights, but no colour within the colour tolerance
 };
 
 /// Collapses edges until none is legal. Before and after: every sample in or on a triangle is within the
 /// tolerance of it, kinds and invariants of the mesh hold. `samples` must contain every sample under the mesh.
-SimplifyCounts simplify(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options);
+/// With colours the mesh has one at every vertex, `colours` holds one for every sample under it, and what would
+/// spoil them is refused too; vertices that are not locked end with those that fit the samples best.
+SimplifyCounts simplify(WindowMesh& mesh, const HeightGrid& samples, const SimplifyOptions& options,
+                        const ColourGrid* colours = nullptr);
 
 }  // namespace tinsmith

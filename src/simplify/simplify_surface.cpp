@@ -11,6 +11,7 @@
 #include "simplify/simplified_mesh.hpp"
 #include "simplify/surface_attributes.hpp"
 #include "simplify/surface_mesh.hpp"
+#include "simplify/surface_wedges.hpp"
 #include "tinsmith/error.hpp"
 #include "tinsmith/simplify.hpp"
 
@@ -146,20 +147,10 @@ class SurfaceSimplifier {
     return std::min(k0, k1) == SurfaceVertexKind::kFeature && mesh_.is_feature[at(h)];
   }
 
-  // The pairs of wedges that a collapse makes one: those of its left triangle, and of its right one if they differ.
-  std::span<const WedgePair> wedge_pairs(std::int32_t h) {
-    pairs_[0] = {mesh_.wedge[at(h)], mesh_.wedge[at(Halfedges::next(h))]};
-    const std::int32_t g = mesh_.twin[at(h)];
-    if (g == kNone) return {pairs_.data(), 1};
-    pairs_[1] = {mesh_.wedge[at(Halfedges::next(g))], mesh_.wedge[at(g)]};
-    const bool is_same = pairs_[0].w0 == pairs_[1].w0 && pairs_[0].w1 == pairs_[1].w1;
-    return {pairs_.data(), is_same ? std::size_t{1} : std::size_t{2}};
-  }
-
   double attribute_cost(std::int32_t h, const Collapse& collapse) {
     if (!attributes_ || (attribute_weight(options_) == 0 && !has_combined())) return 0;
     double cost = 0;
-    for (const WedgePair& pair : wedge_pairs(h))
+    for (const WedgePair& pair : wedge_pairs(mesh_, h))
       cost += attributes_->cost(pair, collapse.position, new_values(pair, collapse));
     return cost;
   }
@@ -205,7 +196,7 @@ class SurfaceSimplifier {
   Quadric<3> quadric_of_place(std::int32_t h, const Quadric<3>& geometry) {
     Quadric<3> quadric = geometry;
     if (attributes_) {
-      for (const WedgePair& pair : wedge_pairs(h)) attributes_->add_cost_of_place(pair, quadric);
+      for (const WedgePair& pair : wedge_pairs(mesh_, h)) attributes_->add_cost_of_place(pair, quadric);
     }
     return quadric;
   }
@@ -269,7 +260,7 @@ class SurfaceSimplifier {
     const Collapse collapse = best(h);
     const double distance = mean_squared_distance(h, collapse.position);
     if (options_.max_cost && distance > *options_.max_cost) return;
-    if (!is_topologically_legal(h) || !has_partners(h, collapse)) {
+    if (!is_topologically_legal(h) || !has_partners(mesh_, h, kept_end(collapse))) {
       ++report_.refused_topology;
       is_refused_[at(h)] = 1;
       return;
@@ -326,26 +317,15 @@ class SurfaceSimplifier {
            mesh_.is_border_vertex(mesh_.destination(h)) || star_.size() > 2;
   }
 
-  bool has_partners(std::int32_t h, const Collapse& collapse) {
-    const int kept_end = collapse.end == 1 ? 1 : 0;
-    const std::int32_t gone = kept_end == 0 ? mesh_.destination(h) : mesh_.origin[at(h)];
-    const std::span<const WedgePair> pairs = wedge_pairs(h);
-    bool all = true;
-    for_each_out(mesh_, gone, [&](std::int32_t g) {
-      const std::int32_t w = mesh_.wedge[at(g)];
-      all = all && std::any_of(pairs.begin(), pairs.end(),
-                               [&](const WedgePair& p) { return (kept_end == 0 ? p.w1 : p.w0) == w; });
-    });
-    return all;
-  }
+  // A new vertex elsewhere takes the name of the origin.
+  static int kept_end(const Collapse& collapse) { return collapse.end == 1 ? 1 : 0; }
 
   void apply(std::int32_t h, const Collapse& collapse) {
     ++report_.collapses;
-    const std::int32_t v0 = mesh_.origin[at(h)];
-    const std::int32_t v1 = mesh_.destination(h);
-    const std::int32_t kept = collapse.end == 1 ? v1 : v0;
-    const std::int32_t gone = collapse.end == 1 ? v0 : v1;
-    if (history_) note(h, gone, collapse.end);
+    const int end = kept_end(collapse);
+    const std::int32_t gone = gone_vertex(mesh_, h, end);
+    const std::int32_t kept = gone_vertex(mesh_, h, 1 - end);
+    if (history_) history_->push_back(noted_collapse(mesh_, h, end));
     move_wedges(h, collapse, gone);
     carry_feature(h);
     if (mesh_.twin[at(h)] != kNone) carry_feature(mesh_.twin[at(h)]);
@@ -356,44 +336,17 @@ class SurfaceSimplifier {
     update_around(kept);
   }
 
-  // What undoes the collapse: for each wedge that goes the triangles that change hands, and the triangles that go.
-  void note(std::int32_t h, std::int32_t gone, int end) {
-    SurfaceCollapse collapse;
-    for (const std::int32_t side : {h, mesh_.twin[at(h)]}) {
-      if (side == kNone) continue;
-      const std::int32_t first = side / 3 * 3;
-      collapse.removed.push_back(
-          {first / 3, {mesh_.wedge[at(first)], mesh_.wedge[at(first + 1)], mesh_.wedge[at(first + 2)]}});
-    }
-    for (const WedgePair& pair : wedge_pairs(h)) {
-      const std::int32_t gone_wedge = end == 1 ? pair.w0 : pair.w1;
-      const std::int32_t kept_wedge = end == 1 ? pair.w1 : pair.w0;
-      if (gone_wedge == kept_wedge) continue;
-      SurfaceCollapse::Moved moved{kept_wedge, gone_wedge, {}};
-      for_each_out(mesh_, gone, [&](std::int32_t g) {
-        const bool goes = g / 3 == h / 3 || (mesh_.twin[at(h)] != kNone && g / 3 == mesh_.twin[at(h)] / 3);
-        if (!goes && mesh_.wedge[at(g)] == gone_wedge) moved.triangles.push_back(g / 3);
-      });
-      const bool is_noted = std::any_of(collapse.moved.begin(), collapse.moved.end(),
-                                        [&](const SurfaceCollapse::Moved& m) { return m.gone == gone_wedge; });
-      if (!is_noted) collapse.moved.push_back(std::move(moved));
-    }
-    history_->push_back(std::move(collapse));
-  }
-
   // The wedges of the end that goes become those of the end that stays, with the attributes of the new vertex.
   void move_wedges(std::int32_t h, const Collapse& collapse, std::int32_t gone) {
-    for (const WedgePair& pair : wedge_pairs(h)) {
-      const std::int32_t kept_wedge = collapse.end == 1 ? pair.w1 : pair.w0;
-      const std::int32_t gone_wedge = collapse.end == 1 ? pair.w0 : pair.w1;
+    for (const WedgePair& pair : wedge_pairs(mesh_, h)) {
+      const std::int32_t kept_wedge = kept_of(pair, kept_end(collapse));
+      const std::int32_t gone_wedge = gone_of(pair, kept_end(collapse));
       if (attributes_) {
         const std::span<const double> now = new_values(pair, collapse);
         std::copy(now.begin(), now.end(), values_.of(kept_wedge).begin());
         if (gone_wedge != kept_wedge) attributes_->unite(kept_wedge, gone_wedge);
       }
-      for_each_out(mesh_, gone, [&](std::int32_t g) {
-        if (mesh_.wedge[at(g)] == gone_wedge) mesh_.wedge[at(g)] = kept_wedge;
-      });
+      hand_over(mesh_, gone, gone_wedge, kept_wedge);
     }
   }
 
@@ -459,7 +412,6 @@ class SurfaceSimplifier {
   std::priority_queue<Entry> queue_;
   std::vector<LinkSide> star_;
   std::vector<std::int32_t> neighbours_;
-  std::array<WedgePair, 2> pairs_{};
   std::vector<double> scratch_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/half_space_test.hpp"
+
 namespace tinsmith {
 
 namespace {
@@ -47,8 +49,9 @@ bool is_still_empty(const HeightInterval& earlier, const Star& star, const Bound
 }
 
 bool is_in_kernel(const Star& star, LatticePoint p) {
-  return std::all_of(star.begin(), star.end(),
-                     [p](const Side& side) { return orient(p, side.a.position, side.b.position) > 0; });
+  return is_inside_half_spaces(
+      star, [p](const Side& side) { return orient(p, side.a.position, side.b.position); },
+      [](const Side& /*side*/) { return false; });
 }
 
 }  // namespace tinsmith

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "geometry/triangle_rows.hpp"
 #include "simplify/simplify.hpp"
 #include "stitch/kinds.hpp"
+#include "triangulate/full_grid.hpp"
 #include "triangulate/triangulate.hpp"
 
 namespace tinsmith {
@@ -25,7 +27,8 @@ double safe_tolerance(const HeightGrid& samples, double tolerance) {
 GridRect grown(const GridRect& r) { return {r.x0 - 1, r.y0 - 1, r.width + 2, r.height + 2}; }
 
 SimplifyOptions simplify_options(const HeightGrid& samples, const WindowOptions& options, bool only_unsettled) {
-  return {safe_tolerance(samples, options.tolerance), options.placement, labour_of(options.effort), only_unsettled};
+  return {safe_tolerance(samples, options.tolerance), options.placement, labour_of(options.effort), only_unsettled,
+          options.colour};
 }
 
 void count_valid(const HeightGrid& samples, const GridRect& window, const HeightField& field, FirstChunk& result) {
@@ -102,30 +105,53 @@ void lock_beside_seams(WindowMesh& mesh, const GridRect& window) {
   lock_ring(mesh, longest, reach);
 }
 
+std::optional<ColourGrid> read_colours(const ColourField* colours, const GridRect& rect) {
+  if (colours == nullptr) return std::nullopt;
+  ColourGrid grid = colours->read(rect);
+  whiten_gaps(grid);
+  return grid;
+}
+
+const ColourGrid* pointer_to(const std::optional<ColourGrid>& grid) { return grid ? &*grid : nullptr; }
+
+// What the samples' heights do not need their colours may.
+WindowMesh coloured_mesh(const HeightGrid& samples, const GridRect& window, const ColourGrid& colours) {
+  WindowMesh mesh = full_grid(samples, window);
+  mesh.colour.reserve(mesh.position.size());
+  for (const LatticePoint p : mesh.position) mesh.colour.push_back(colours.at(floor_cell(p.x), floor_cell(p.y)));
+  return mesh;
+}
+
 }  // namespace
 
-FirstChunk first_chunk(const HeightField& field, const GridRect& window, const WindowOptions& options) {
+FirstChunk first_chunk(const HeightField& field, const GridRect& window, const WindowOptions& options,
+                       const ColourField* colours) {
   FirstChunk result;
   const HeightGrid samples = field.read(grown(window));
   count_valid(samples, window, field, result);
   if (result.valid_cells == 0) return result;
   const SimplifyOptions simplification = simplify_options(samples, options, false);
-  WindowMesh mesh = triangulate(samples, window, {simplification.tolerance, options.aspect});
+  const std::optional<ColourGrid> levels = read_colours(colours, samples.rect);
+  WindowMesh mesh = levels ? coloured_mesh(samples, window, *levels)
+                           : triangulate(samples, window, {simplification.tolerance, options.aspect});
   result.start_triangles = mesh.origin.size() / 3;
   set_kinds(mesh, samples);
   lock_beside_seams(mesh, window);
-  simplify(mesh, samples, simplification);
+  simplify(mesh, samples, simplification, pointer_to(levels));
   result.chunk = chunk_of(mesh);
   return result;
 }
 
-Chunk seam_chunk(const HeightField& field, const std::vector<const Chunk*>& parts, const WindowOptions& options) {
+Chunk seam_chunk(const HeightField& field, const std::vector<const Chunk*>& parts, const WindowOptions& options,
+                 const ColourField* colours) {
   Chunk welded = weld(parts);
   if (welded.is_empty()) return welded;
   WindowMesh mesh = mesh_of(std::move(welded));
   const HeightGrid samples = field.read(grown(rect_of(mesh.position)));
   set_kinds(mesh, samples);
-  if (has_unsettled(mesh)) simplify(mesh, samples, simplify_options(samples, options, true));
+  if (!has_unsettled(mesh)) return chunk_of(mesh);
+  const std::optional<ColourGrid> levels = read_colours(colours, samples.rect);
+  simplify(mesh, samples, simplify_options(samples, options, true), pointer_to(levels));
   return chunk_of(mesh);
 }
 

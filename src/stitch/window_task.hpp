@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "samples/colour_grid.hpp"
 #include "samples/height_grid.hpp"
+#include "simplify/colour_fit.hpp"
 #include "tile/chunk.hpp"
 #include "tinsmith/options.hpp"
 
@@ -16,6 +18,7 @@ struct WindowOptions {
   double aspect = 1;     // metres between rows / metres between columns, at the window
   Placement placement = Placement::kOptimal;
   Effort effort = Effort::kDefault;
+  ColourOptions colour = {};  // for fields with colours
 };
 
 /// What a task of round 0 gives.
@@ -27,10 +30,13 @@ struct FirstChunk {
 };
 
 /// Round 0: select, triangulate, simplify; the vertices on the window's border stay as they are.
-FirstChunk first_chunk(const HeightField& field, const GridRect& window, const WindowOptions& options);
+/// With `colours`, which lie on the grid of the field, every sample is selected, and vertices have colours.
+FirstChunk first_chunk(const HeightField& field, const GridRect& window, const WindowOptions& options,
+                       const ColourField* colours = nullptr);
 
 /// Later rounds: the parts of the earlier round's chunks that belong to the window are welded, and the seams
-/// that now lie inside dissolve.
-Chunk seam_chunk(const HeightField& field, const std::vector<const Chunk*>& parts, const WindowOptions& options);
+/// that now lie inside dissolve. `colours` as in round 0.
+Chunk seam_chunk(const HeightField& field, const std::vector<const Chunk*>& parts, const WindowOptions& options,
+                 const ColourField* colours = nullptr);
 
 }  // namespace tinsmith

@@ -36,6 +36,7 @@ class Extract {
       part.position.push_back(from_.position[at(v)]);
       part.height.push_back(from_.height[at(v)]);
       part.is_settled.push_back(from_.is_settled[at(v)]);
+      if (!from_.colour.empty()) part.colour.push_back(from_.colour[at(v)]);
     }
     return name_[at(v)];
   }
@@ -65,12 +66,13 @@ WindowMesh mesh_of(Chunk&& chunk) {
   mesh.position = std::move(chunk.position);
   mesh.height = std::move(chunk.height);
   mesh.is_settled = std::move(chunk.is_settled);
+  mesh.colour = std::move(chunk.colour);
   connect(mesh, chunk.triangles);
   return mesh;
 }
 
 Chunk chunk_of(const WindowMesh& mesh) {
-  Chunk all{mesh.position, mesh.height, mesh.is_settled, {}};
+  Chunk all{mesh.position, mesh.height, mesh.is_settled, {}, mesh.colour};
   settle(all.is_settled, mesh);
   std::vector<std::int32_t> live;
   for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
@@ -127,6 +129,7 @@ Chunk weld(const std::vector<const Chunk*>& parts) {
       whole.position.push_back(e.position);
       whole.height.push_back(part.height[at(e.vertex)]);
       whole.is_settled.push_back(part.is_settled[at(e.vertex)]);
+      if (!part.colour.empty()) whole.colour.push_back(part.colour[at(e.vertex)]);
     }
     name[at(e.part)][at(e.vertex)] = static_cast<std::int32_t>(whole.position.size()) - 1;
   }

@@ -1,11 +1,13 @@
 #pragma once
 // What a window task leaves: a piece of the surface. A vertex is known everywhere by its place on the lattice,
-// of which there is one height only (at a pinch, too): pieces need no numbers in common to be welded.
+// of which there is one height and one colour only (at a pinch, too): pieces need no numbers in common to be
+// welded.
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "geometry/colour.hpp"
 #include "geometry/lattice.hpp"
 #include "mesh/window_mesh.hpp"
 #include "tile/windows.hpp"
@@ -17,6 +19,7 @@ struct Chunk {
   std::vector<double> height;
   std::vector<std::uint8_t> is_settled;  // see WindowMesh
   std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<Colour> colour;  // by vertex; empty: the surface has none
 
   bool is_empty() const { return triangles.empty(); }
 };
@@ -34,7 +37,8 @@ struct ChunkPart {
 };
 std::vector<ChunkPart> split(const Chunk& chunk, const WindowGrid& windows);
 
-/// One chunk of several: vertices at the same place become one. Vertices are sorted by place.
+/// One chunk of several, all with colours or none: vertices at the same place become one. Vertices are sorted by
+/// place.
 Chunk weld(const std::vector<const Chunk*>& parts);
 
 }  // namespace tinsmith

@@ -43,6 +43,7 @@ inline std::string bytes_of(const std::string& path) {
 }
 
 inline void put_bytes(const std::string& path, const std::string& bytes) {
+  std::filesystem::remove(path);  // cutting off a file that is there makes some file systems wait for the disk
   std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
 }
 

@@ -1,12 +1,9 @@
 #include "io/mesh_file.hpp"
 
 #include <ogr_spatialref.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
-#include <csignal>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "io/mesh_cases.hpp"
@@ -178,28 +175,6 @@ TEST(MeshFile, RefusesHugeCountsWithoutAskingForMemory) {
             "property double y\nproperty double z\nelement face 4611686018427387904\n"
             "property list uchar int vertex_indices\nend_header\n");
   EXPECT_THROW(read_mesh(path), InputError);
-}
-
-TEST(MeshFile, KeepsTheOldFileWhenTheDiskIsFull) {
-  const ScratchFolder folder;
-  const TerrainMesh small = random_mesh(1, 2, 2);
-  const TerrainMesh large = random_mesh(1, 100, 100);
-  std::signal(SIGXFSZ, SIG_IGN);
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  for (const std::string extension : kExtensions) {
-    const std::string path = folder.file("a" + extension);
-    write_mesh(path, small, frames()[0]);
-    const std::string old = bytes_of(path);
-    const std::size_t n_files = folder.n_files();
-    rlimit limit = before;
-    limit.rlim_cur = 50000;
-    setrlimit(RLIMIT_FSIZE, &limit);
-    EXPECT_THROW(write_mesh(path, large, frames()[0]), OutputError) << extension;
-    setrlimit(RLIMIT_FSIZE, &before);
-    EXPECT_EQ(bytes_of(path), old) << extension;
-    EXPECT_EQ(folder.n_files(), n_files) << extension << ": no temporary file left";
-  }
 }
 
 TEST(MeshFile, NamesTheReasonWhenAFolderCannotBeWritten) {

@@ -198,7 +198,7 @@ TEST(Judge, FindsTheSameInBandsOfAnyHeight) {
     const Scene scene = damaged(random);
     const Certificate whole = scene.judged();
     for (const int rows : {1, 2, 3, 5}) {
-      const Certificate c = scene.judged(rows);
+      const Certificate c = scene.judged({512, rows});
       ASSERT_EQ(c.covered, whole.covered);
       ASSERT_EQ(c.uncovered, whole.uncovered);
       ASSERT_EQ(c.overlapped, whole.overlapped);

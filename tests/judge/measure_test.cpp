@@ -226,7 +226,7 @@ TEST(Judge, StopsOnRequest) {
     last = fraction;
     return fraction < 0.5;
   };
-  EXPECT_THROW(measure(scene.tin(), {field, scene.frame, 5, watch}), Interrupted);
+  EXPECT_THROW(measure(scene.tin(), {field, scene.frame, {512, 5}, watch}), Interrupted);
   EXPECT_GE(last, 0.5);
   EXPECT_LT(last, 0.7);
 }

@@ -39,9 +39,9 @@ struct Scene {
     return tin;
   }
 
-  Certificate judged(std::int32_t band_rows = 0) const {
+  Certificate judged(BlockSize block = {}, const Budget& budget = {}) const {
     const ArrayField field(z.data(), width, height);
-    return measure(tin(), {field, frame, band_rows, {}});
+    return measure(tin(), {field, frame, block, {}}, budget);
   }
 };
 

@@ -151,7 +151,8 @@ int compress_rasters(Flags flags) {
   report["seconds"] = resources_so_far().seconds;
   add_compression(report, compressed, output);
   if (!flags.no_verify) {
-    add_certificate(report, verify(flags.files, output, input_options, options.progress), compressed.tolerance);
+    add_certificate(report, verify(flags.files, output, input_options, {flags.threads, 0, {}, options.progress}),
+                    compressed.tolerance);
     report["verify_seconds"] = resources_so_far().seconds - report["seconds"].get<double>();
   }
   options.progress = {};  // ends the line of the bar

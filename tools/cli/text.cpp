@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
+#include <system_error>
 
 #include "tinsmith/error.hpp"
 
@@ -46,6 +50,24 @@ std::string byte_size(std::uint64_t bytes) {
   std::size_t unit = 0;
   for (; size >= 999.5 && unit + 1 < kUnits.size(); ++unit) size /= 1000;
   return fmt::format("{:.{}f} {}", size, unit > 0 && size < 9.95 ? 1 : 0, kUnits[unit]);
+}
+
+std::uint64_t to_bytes(const std::string& flag, const std::string& size) {
+  constexpr std::string_view kUnits = "KMGT";
+  constexpr double kMost = 1e18;
+  std::size_t n_digits = 0;
+  double number = 0;
+  const auto [end, error] = std::from_chars(size.data(), size.data() + size.size(), number);
+  if (error == std::errc()) n_digits = static_cast<std::size_t>(end - size.data());
+  std::string unit = size.substr(n_digits);
+  for (char& c : unit) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const std::size_t power = unit.empty() ? 0 : kUnits.find(unit[0]) + 1;  // 0: not there
+  if (power > 0) unit.erase(0, 1);
+  const bool is_unit = unit.empty() || unit == "B" || (unit == "IB" && power > 0);
+  const double bytes = std::ldexp(number, 10 * static_cast<int>(power));
+  if (n_digits == 0 || !is_unit || !(bytes >= 1 && bytes <= kMost))
+    throw UsageError(fmt::format("{} '{}': give a size like 512M, 1G or 2GiB", flag, size));
+  return static_cast<std::uint64_t>(bytes);
 }
 
 void require_written_results() {

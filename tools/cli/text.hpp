@@ -25,6 +25,10 @@ std::string duration(double seconds);
 /// "123 MB" (millions of bytes).
 std::string byte_size(std::uint64_t bytes);
 
+/// Bytes of a size like 512M, 1.5G or 2GiB: k, M, G and T are powers of 1024, with or without B or iB; without one,
+/// bytes. Throws UsageError that names the flag, also for 0.
+std::uint64_t to_bytes(const std::string& flag, const std::string& size);
+
 /// Throws OutputError when standard output did not take all that was printed.
 void require_written_results();
 

@@ -2,9 +2,13 @@
 
 #include "tinsmith/verify.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <thread>
 
 #include "input_flags.hpp"
 #include "inputs.hpp"
@@ -29,6 +33,9 @@ options:
   --max-error M        the tolerance that no sample may exceed, in metres, 0 or more
 )" TINSMITH_INPUT_MANUAL
     R"(  --json FILE          the report as one JSON object; - prints it to standard output and nothing else
+  --threads N          threads to use; default: all of the machine; the certificate does not depend on it
+  --memory SIZE        what the program may use, such as 512M, 1G or 2GiB; default: a quarter of what there is
+  --tmp DIR            folder of scratch files, for what does not fit; default: the folder of the mesh
   --quiet              no progress bar
 
 keys:
@@ -52,16 +59,32 @@ examples:
   tinsmith verify north.tif south.tif both.glb --json report.json
 
 exit codes: 0 it holds; 1 it does not, standard error says what; 2 wrong usage; 3 an input can't be used;
-4 the report can't be written; 5 out of memory; 130 interrupted
+4 the report or a scratch
+file can't be written; 5 out of memory or of room for scratch files; 130 interrupted
 )";
 
 struct Flags {
   std::vector<std::string> files;
   std::optional<double> max_error;
   InputFlags input;
+  int threads = 0;
+  std::string memory;
+  std::string tmp;
   std::string json;
   bool quiet = false;
 };
+
+VerifyOptions to_options(const Flags& flags) {
+  if (flags.threads < 0) throw UsageError(fmt::format("--threads {}: give 0 (all) or more", flags.threads));
+  VerifyOptions options;
+  options.threads =
+      flags.threads > 0 ? flags.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (!flags.memory.empty()) options.memory = to_bytes("--memory", flags.memory);
+  if (!flags.tmp.empty() && !std::filesystem::is_directory(flags.tmp))
+    throw UsageError(fmt::format("--tmp {}: no such folder; make it or name another", flags.tmp));
+  options.tmp = flags.tmp;
+  return options;
+}
 
 int verify_mesh(Flags flags) {
   const std::string mesh = flags.files.back();
@@ -69,6 +92,7 @@ int verify_mesh(Flags flags) {
   require_rasters(flags.files, "tinsmith verify INPUT... MESH");
   if (flags.max_error) require_tolerance("--max-error", *flags.max_error);
   const InputOptions options = to_input_options(flags.input);
+  VerifyOptions verify_options = to_options(flags);
   if (!flags.json.empty() && flags.json != "-") {
     require_other_than_inputs(flags.json, flags.files);
     require_other_than_inputs(flags.json, {mesh});
@@ -76,14 +100,16 @@ int verify_mesh(Flags flags) {
   }
   const OpenedInputs inputs = open_inputs(flags.files, options);
   print_remarks(inputs.remarks, flags.quiet);
-  const Certificate certificate = verify(flags.files, mesh, options, make_progress(flags.quiet, inputs.n_samples));
+  verify_options.progress = make_progress(flags.quiet, inputs.n_samples);
+  const Certificate certificate = verify(flags.files, mesh, options, verify_options);
+  verify_options.progress = {};  // ends the line of the bar
   Json report = empty_report(flags.files, mesh);
   add_certificate(report, certificate, flags.max_error);
   const Resources used = resources_so_far();
   report["bytes"] = std::filesystem::file_size(mesh);
   report["seconds"] = used.seconds;
   report["peak_memory_bytes"] = used.peak_memory_bytes;
-  report["threads"] = 1;
+  report["threads"] = verify_options.threads;
   if (!flags.json.empty()) write_json(report, flags.json);
   if (flags.json != "-") {
     print_table(report);
@@ -101,6 +127,9 @@ void add_verify(CLI::App& program, Run& run) {
   verb.add_option("INPUT... MESH", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
   verb.add_option("--max-error", flags->max_error);
   add_input_flags(verb, flags->input);
+  verb.add_option("--threads", flags->threads);
+  verb.add_option("--memory", flags->memory);
+  verb.add_option("--tmp", flags->tmp);
   verb.add_option("--json", flags->json);
   verb.add_flag("--quiet", flags->quiet);
   verb.callback([flags, &run] { run = [flags] { return verify_mesh(*flags); }; });

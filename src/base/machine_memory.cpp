@@ -1,0 +1,54 @@
+#include "base/machine_memory.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace tinsmith {
+namespace {
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+/// What a file of the control group says; no limit when it says "max", nothing, or is not there.
+std::uint64_t limit_in(const std::string& path) {
+  std::ifstream file(path);
+  std::uint64_t limit = kNoLimit;
+  return file >> limit ? limit : kNoLimit;
+}
+
+/// Of the folder and all above it, up to the root of the control groups.
+std::uint64_t limit_along(const std::string& root, std::string group, const std::string& name) {
+  std::uint64_t limit = limit_in(root + "/" + name);
+  for (; group.size() > 1; group.resize(group.rfind('/')))
+    limit = std::min(limit, limit_in(root + group + "/" + name));
+  return limit;
+}
+
+/// Lines are "0::/group" for version 2, "9:memory:/group" for version 1.
+std::uint64_t group_limit() {
+  std::ifstream groups("/proc/self/cgroup");
+  std::uint64_t limit = kNoLimit;
+  for (std::string line; std::getline(groups, line);) {
+    const std::size_t first = line.find(':');
+    const std::size_t second = line.find(":/", first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string group = line.substr(second + 1);
+    if (second == first + 1) limit = std::min(limit, limit_along("/sys/fs/cgroup", group, "memory.max"));
+    if (line.find("memory", first) < second)
+      limit = std::min(limit, limit_along("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
+  }
+  return limit;
+}
+
+}  // namespace
+
+std::uint64_t machine_memory() {
+  const auto physical =
+      static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+  return std::min(physical, group_limit());
+}
+
+}  // namespace tinsmith

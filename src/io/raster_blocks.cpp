@@ -1,0 +1,79 @@
+#include "io/raster_blocks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tinsmith {
+namespace {
+
+constexpr std::int32_t kUsualWindow = 256;
+
+// Strips of 65536 floats: twice of anything that is published as one strip-wise tile of a DEM.
+constexpr std::uint64_t kCostlyRow = std::uint64_t{64} << 20;
+
+std::int64_t n_blocks(std::int64_t first, std::int64_t size, std::int64_t block) {
+  return (first + size - 1) / block - first / block + 1;
+}
+
+// The samples of the blocks that n samples along a side touch at worst, but no more than there are.
+std::uint64_t touched(std::int64_t n, std::int64_t block, std::int64_t side) {
+  const std::int64_t n_at_worst = (n + block - 2) / block + 1;
+  const std::int64_t n_there = (side + block - 1) / block;
+  return static_cast<std::uint64_t>(std::min(n_at_worst, n_there) * block);
+}
+
+}  // namespace
+
+GridRect block_around(const RasterSource& source, std::int32_t x0, std::int32_t y0) {
+  const std::int32_t x = x0 / source.block_width * source.block_width;
+  const std::int32_t y = y0 / source.block_height * source.block_height;
+  return {x, y, std::min(source.block_width, source.width - x), std::min(source.block_height, source.height - y)};
+}
+
+std::uint64_t decoded_samples(const RasterSource& source, const GridRect& rect) {
+  const std::int64_t columns = n_blocks(rect.x0, rect.width, source.block_width) * source.block_width;
+  const std::int64_t rows = n_blocks(rect.y0, rect.height, source.block_height) * source.block_height;
+  return static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
+}
+
+std::uint64_t cache_for_row(const RasterSource& source, std::int32_t window) {
+  const auto bytes = static_cast<std::uint64_t>(GDALGetDataTypeSizeBytes(source.type));
+  // A block may lie in two windows: the one being read and the next.
+  return touched(2LL * window, source.block_width, source.width) *
+         touched(window, source.block_height, source.height) * bytes;
+}
+
+std::uint64_t cache_for_row(const std::vector<RasterSource>& sources, std::int32_t window, int threads) {
+  std::uint64_t most = 0;
+  std::int32_t width = window;
+  std::int32_t height = window;
+  bool is_shared = true;
+  for (const RasterSource& source : sources) {
+    most = std::max(most, cache_for_row(source, window));
+    width = std::min(width, source.width);
+    height = std::min(height, source.height);
+    is_shared = is_shared && is_costly_in_windows(source);
+  }
+  // The rasters that two windows touch, were all as small as the smallest.
+  const std::uint64_t n_touched =
+      touched(2LL * window, width, 2LL * window + 2LL * width) / static_cast<std::uint64_t>(width) *
+      (touched(window, height, window + 2LL * height) / static_cast<std::uint64_t>(height));
+  const std::uint64_t n_handles = is_shared ? 1 : static_cast<std::uint64_t>(std::max(1, threads));
+  return most * std::min<std::uint64_t>(n_touched, sources.size()) * n_handles;
+}
+
+bool is_costly_in_windows(const RasterSource& source) { return cache_for_row(source, kUsualWindow) > kCostlyRow; }
+
+std::optional<std::string> remark_on_blocks(const std::vector<RasterSource>& sources) {
+  const auto first = std::find_if(sources.begin(), sources.end(), is_costly_in_windows);
+  if (first == sources.end()) return std::nullopt;
+  const auto n_others = std::count_if(first + 1, sources.end(), is_costly_in_windows);
+  const std::string others = n_others > 0 ? fmt::format(" (and {} others)", n_others) : "";
+  return fmt::format(
+      "{}{} is stored in blocks of {} x {}, slow to read in windows and costly in memory; convert it with "
+      "gdal_translate -co TILED=YES",
+      first->path, others, first->block_width, first->block_height);
+}
+
+}  // namespace tinsmith

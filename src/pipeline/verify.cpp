@@ -1,0 +1,67 @@
+#include "tinsmith/verify.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/machine_memory.hpp"
+#include "io/mesh_file.hpp"
+#include "io/raster_field.hpp"
+#include "pipeline/measure_blocks.hpp"
+#include "tinsmith/error.hpp"
+
+namespace tinsmith {
+namespace {
+
+// What the program itself takes, with the libraries, the histograms of errors and the cache of the raster.
+constexpr std::uint64_t kOwnMemory = std::uint64_t{112} << 20;
+
+/// Bytes for the mesh and its blocks.
+std::uint64_t working_memory(std::uint64_t asked) {
+  const std::uint64_t memory = asked > 0 ? asked : machine_memory() / 4;
+  return std::max(memory / 4, memory - std::min(memory, kOwnMemory));
+}
+
+int thread_count(const VerifyOptions& options) {
+  if (options.threads < 0) throw UsageError(fmt::format("threads is {}: it must be 0 or more", options.threads));
+  return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+}
+
+void add_file(const std::string& mesh_path, const Samples& samples, BlockedMesh& mesh) {
+  MeshVisitor visitor;
+  visitor.vertices = [&](std::span<const std::array<double, 3>> vertices) {
+    report_progress(samples, 0);
+    mesh.add_vertices(vertices);
+  };
+  visitor.triangles = [&](std::span<const std::array<std::uint64_t, 3>> triangles) {
+    report_progress(samples, 0);
+    for (const auto& triangle : triangles) mesh.add_triangle(triangle);
+  };
+  visit_mesh(mesh_path, visitor);
+  mesh.close();
+}
+
+std::string scratch_folder(const std::string& mesh_path, const VerifyOptions& options) {
+  return options.tmp.empty() ? std::filesystem::path(mesh_path).parent_path().string() : options.tmp;
+}
+
+}  // namespace
+
+Certificate verify(const std::vector<std::string>& inputs, const std::string& mesh_path,
+                   const InputOptions& input_options, const VerifyOptions& options) {
+  const int threads = thread_count(options);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const RasterField field(inputs, input_options);
+  const Samples samples{field, field.frame(), {}, options.progress};
+  const BlockGrid grid(field, samples.block);
+  const std::uint64_t memory = working_memory(options.memory);
+  // Vertices are let go of before blocks are measured.
+  BlockedMesh mesh(grid, field.frame(), {memory / 4, memory / 4, scratch_folder(mesh_path, options)});
+  add_file(mesh_path, samples, mesh);
+  return measure_blocks(mesh, samples, threads, memory / 4 * 3);
+}
+
+}  // namespace tinsmith
