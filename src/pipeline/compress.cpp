@@ -138,7 +138,7 @@ void compress_and_write(const Target& target, const CompressOptions& options, co
   for (int restarts = 0;; ++restarts) {
     const auto surface = compress_field(target, options, folder_of, report);
     try {
-      write_mesh(target.output, mesh_of(*surface), target.frame);
+      write_mesh(target.output, *surface, target.frame);
       return;
     } catch (const DamagedChunk& damage) {
       if (restarts == kMostRestarts) throw OutputError(std::string(damage.what()) + "; choose another --tmp");
