@@ -32,7 +32,7 @@ struct SimplifySurfaceOptions {
   Placement placement = Placement::kOptimal;
   // Planes count by the area of their triangles and twice the mean area; false: all the same (eq. 3 as printed).
   bool area_weights = true;
-  bool half_space = true;    // eq. 12-24: no triangle may turn over
+  bool half_space = true;  // eq. 12-24: no triangle may turn over
   QuadricForm quadric = QuadricForm::kGradient;
   // alpha of Cost = E_g + alpha E_c, the geometry in units of its largest extent; 0: attributes follow and cost
   // nothing. Default: 1 for separate quadrics, 5e-6 for the others.
