@@ -185,8 +185,8 @@ TEST_F(ColourRasterTest, ExpandAPalette) {
   recipe.value = [](int, int column, int) { return column < 30 ? 0 : 1; };
   const ColourGrid grid = read_colours(recipe);
   ASSERT_EQ(grid.channels.size(), 3U);
-  EXPECT_EQ(grid.at(10, 10), (Colour{10, 200, 30, 0}));
-  EXPECT_EQ(grid.at(50, 10), (Colour{1, 2, 220, 0}));
+  EXPECT_EQ(grid.at(10, 10), (Levels{10, 200, 30, 0}));
+  EXPECT_EQ(grid.at(50, 10), (Levels{1, 2, 220, 0}));
 }
 
 TEST_F(ColourRasterTest, AreTheSameWhateverTheRectangleAndTheThread) {
