@@ -30,11 +30,12 @@ struct SimplifySurfaceOptions {
   std::optional<double> ratio;      // the same as a fraction (0 to 1] of the input's
   std::optional<double> max_cost;   // no collapse that costs more (mean squared distance, square units of the mesh)
   Placement placement = Placement::kOptimal;
-  bool area_weights = true;  // planes count by the area of their triangles; false: all the same (eq. 3 as printed)
-  bool half_space = true;    // eq. 12-24: no triangle may turn over
+  // Planes count by the area of their triangles and twice the mean area; false: all the same (eq. 3 as printed).
+  bool area_weights = true;
+  bool half_space = true;  // eq. 12-24: no triangle may turn over
   QuadricForm quadric = QuadricForm::kGradient;
   // alpha of Cost = E_g + alpha E_c, the geometry in units of its largest extent; 0: attributes follow and cost
-  // nothing. Default: 1 for separate quadrics, 1e-5 for the others.
+  // nothing. Default: 1 for separate quadrics, 5e-6 for the others.
   std::optional<double> attribute_weight;
   std::optional<double> crease;  // degrees: edges whose triangles meet at more than that are features
   bool keep_seams = true;  // edges along which colours or normals differ are features; false: one side's remain

@@ -10,6 +10,6 @@ inline constexpr std::size_t kMaxChannels = 4;
 inline constexpr float kWhite = 255;
 
 /// Levels of 0 to 255 by channel; channels that there are not hold 0.
-using Colour = std::array<float, kMaxChannels>;
+using Levels = std::array<float, kMaxChannels>;
 
 }  // namespace tinsmith

@@ -103,10 +103,13 @@ struct RasterField::Impl {
 
 void RasterField::Impl::open(const std::vector<std::string>& paths, const InputOptions& options) {
   std::vector<PlacedRaster> rasters;
+  CrsUnits crs;
   for (const std::string& path : paths) {
     if (!inputs.add(path, options)) continue;
     RasterSource& source = inputs.last();
-    rasters.push_back({path, frame_of(source, options, remarks), source.width, source.height});
+    // Reading a CRS takes as long as opening the file, and thousands of tiles have the same.
+    if (rasters.empty() || source.crs_wkt != rasters.back().frame.crs_wkt) crs = crs_units(source.crs_wkt, path);
+    rasters.push_back({path, frame_of(source, crs, options, remarks), source.width, source.height});
     source.crs_wkt = {};  // a kilobyte for each of thousands
   }
   if (rasters.empty() && !paths.empty()) {

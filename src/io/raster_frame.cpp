@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "geodesy/crs.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
@@ -82,8 +81,8 @@ void require_latitudes(const RasterSource& source, const GridFrame& frame) {
 
 }  // namespace
 
-GridFrame frame_of(const RasterSource& source, const InputOptions& options, std::vector<std::string>& remarks) {
-  const CrsUnits crs = crs_units(source.crs_wkt, source.path);
+GridFrame frame_of(const RasterSource& source, const CrsUnits& crs, const InputOptions& options,
+                   std::vector<std::string>& remarks) {
   GridFrame frame;
   frame.crs_wkt = source.crs_wkt;
   frame.is_geographic = crs.is_geographic;

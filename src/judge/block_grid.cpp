@@ -51,10 +51,6 @@ void add_columns(PlanPoint from, PlanPoint to, const Extent& rows, Extent& colum
   if (from.y == to.y) columns.add(to.x);
 }
 
-std::int64_t part(double x, std::int32_t size, std::int64_t n) {
-  return static_cast<std::int64_t>(std::clamp(std::floor(x / size), 0.0, static_cast<double>(n - 1)));
-}
-
 std::int32_t clipped(std::int64_t n_blocks, std::int32_t size, std::int32_t most) {
   return static_cast<std::int32_t>(std::min<std::int64_t>(n_blocks * size, most));
 }
@@ -73,10 +69,6 @@ BlockGrid::BlockGrid(const HeightField& field, BlockSize size)
       n_columns_((std::int64_t{width_} + size.width - 1) / size.width),
       n_rows_((std::int64_t{height_} + size.height - 1) / size.height) {}
 
-std::int64_t BlockGrid::column_of(double x) const { return part(x, size_.width, n_columns_); }
-
-std::int64_t BlockGrid::row_of(double y) const { return part(y, size_.height, n_rows_); }
-
 GridRect BlockGrid::samples_of(const Range& range) const {
   const std::int32_t x0 = clipped(range.column, size_.width, width_);
   const std::int32_t y0 = clipped(range.row, size_.height, height_);
@@ -88,6 +80,17 @@ GridRect BlockGrid::samples_of(BlockNumber block) const {
   const auto column = static_cast<std::int64_t>(block) % n_columns_;
   const auto row = static_cast<std::int64_t>(block) / n_columns_;
   return samples_of({column, row, column + 1, row + 1});
+}
+
+BlockExtent BlockGrid::extent_of(BlockNumber block) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto column = static_cast<std::int64_t>(block) % n_columns_;
+  const auto row = static_cast<std::int64_t>(block) / n_columns_;
+  const auto start = [](std::int64_t n, std::int32_t size) { return static_cast<double>(n * size); };
+  return {column == 0 ? -kInfinity : start(column, size_.width),
+          column + 1 == n_columns_ ? kInfinity : start(column + 1, size_.width),
+          row == 0 ? -kInfinity : start(row, size_.height),
+          row + 1 == n_rows_ ? kInfinity : start(row + 1, size_.height)};
 }
 
 bool BlockGrid::is_in_one_block(const Facet& facet) const {

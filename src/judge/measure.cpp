@@ -51,7 +51,7 @@ std::uint64_t memory_of(const BlockedMesh& mesh, BlockNumber block) {
 
 void measure_block(BlockedMesh& mesh, BlockNumber number, const Samples& samples, Findings& findings) {
   const std::vector<Facet> facets = mesh.take(number);
-  const Block block{mesh.grid(), number, facets};
+  const Block block{mesh.grid(), mesh.grid().extent_of(number), facets};
   measure_areas(block, samples.frame, findings);
   measure_border(block, measure_topology(block, findings), findings);
   measure_coverage(mesh.grid().samples_of(number), facets, samples.field, samples.frame, findings);

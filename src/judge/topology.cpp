@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <compare>
 #include <numeric>
 
 #include "judge/sets.hpp"
@@ -28,7 +27,10 @@ struct EdgeUse {
   std::uint32_t high_vertex;
   std::uint32_t corner;
 
-  friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
+  std::uint64_t edge() const { return std::uint64_t{low_vertex} << 32U | high_vertex; }
+  friend bool operator<(const EdgeUse& a, const EdgeUse& b) {
+    return a.edge() != b.edge() ? a.edge() < b.edge() : a.corner < b.corner;
+  }
 };
 
 /// All uses of edges, in bins by the lower vertex; sorted within a bin, so that those of one edge are together.
@@ -88,9 +90,7 @@ void connect_all(const Block& block, Connections& connections) {
   const std::vector<EdgeUse> uses = std::move(sort_uses(block).uses);
   for (std::size_t i = 0; i < uses.size();) {
     std::size_t j = i + 1;
-    while (j < uses.size() && uses[j].low_vertex == uses[i].low_vertex &&
-           uses[j].high_vertex == uses[i].high_vertex)
-      ++j;
+    while (j < uses.size() && uses[j].edge() == uses[i].edge()) ++j;
     connect(block, {&uses[i], j - i}, connections);
     i = j;
   }

@@ -14,11 +14,11 @@ namespace tinsmith {
 
 struct Block {
   const BlockGrid& grid;
-  BlockNumber number;
+  BlockExtent extent;
   std::span<const Facet> facets;
 
   /// Places, vertices and edges belong to one block each.
-  bool owns(const PlanPoint& p) const { return grid.block_of(p) == number; }
+  bool owns(const PlanPoint& p) const { return extent.holds(p); }
 };
 
 /// Runs from corner `corner % 3` of facet `corner / 3` of the block to the next corner.

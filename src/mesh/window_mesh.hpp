@@ -21,7 +21,7 @@ struct WindowMesh : Halfedges {
   std::vector<double> height;
   std::vector<VertexKind> kind;
   std::vector<std::uint8_t> is_settled;  // was free among free neighbours in an earlier round
-  std::vector<Colour> colour;            // empty: the surface has none
+  std::vector<Levels> colour;            // empty: the surface has none
 
   std::int32_t n_vertices() const { return static_cast<std::int32_t>(position.size()); }
 };

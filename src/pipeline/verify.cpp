@@ -16,13 +16,14 @@
 namespace tinsmith {
 namespace {
 
-// What the program itself takes, with the libraries, the histograms of errors and the cache of the raster.
-constexpr std::uint64_t kOwnMemory = std::uint64_t{112} << 20;
+// What the program itself takes, with its libraries and the histograms of errors.
+constexpr std::uint64_t kOwnMemory = std::uint64_t{80} << 20;
+constexpr std::uint64_t kCacheShare =
+    8;  // one part of the memory is left to GDAL, for decoded blocks of the raster
 
-/// Bytes for the mesh and its blocks.
-std::uint64_t working_memory(std::uint64_t asked) {
-  const std::uint64_t memory = asked > 0 ? asked : machine_memory() / 4;
-  return std::max(memory / 4, memory - std::min(memory, kOwnMemory));
+/// Bytes for the mesh and its blocks; a quarter where the program itself leaves less.
+std::uint64_t working_memory(std::uint64_t memory) {
+  return std::max(memory / 4, memory - std::min(memory, kOwnMemory + memory / kCacheShare));
 }
 
 int thread_count(const VerifyOptions& options) {
@@ -54,14 +55,15 @@ Certificate verify(const std::vector<std::string>& inputs, const std::string& me
                    const InputOptions& input_options, const VerifyOptions& options) {
   const int threads = thread_count(options);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const std::uint64_t memory = options.memory > 0 ? options.memory : machine_memory() / 4;
   const RasterField field(inputs, input_options);
   const Samples samples{field, field.frame(), {}, options.progress};
   const BlockGrid grid(field, samples.block);
-  const std::uint64_t memory = working_memory(options.memory);
+  const std::uint64_t working = working_memory(memory);
   // Vertices are let go of before blocks are measured.
-  BlockedMesh mesh(grid, field.frame(), {memory / 4, memory / 4, scratch_folder(mesh_path, options)});
+  BlockedMesh mesh(grid, field.frame(), {working / 4, working / 4, scratch_folder(mesh_path, options)});
   add_file(mesh_path, samples, mesh);
-  return measure_blocks(mesh, samples, threads, memory / 4 * 3);
+  return measure_blocks(mesh, samples, threads, working / 4 * 3);
 }
 
 }  // namespace tinsmith

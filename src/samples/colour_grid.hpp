@@ -17,8 +17,8 @@ struct ColourGrid {
   std::vector<HeightGrid> channels;  // 1 to kMaxChannels
 
   /// The colour of the grid's own column and row, which lie in rect.
-  Colour at(std::int32_t x, std::int32_t y) const {
-    Colour colour{};
+  Levels at(std::int32_t x, std::int32_t y) const {
+    Levels colour{};
     for (std::size_t c = 0; c < channels.size(); ++c) colour[c] = static_cast<float>(channels[c].at(x, y));
     return colour;
   }

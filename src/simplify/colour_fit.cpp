@@ -84,15 +84,15 @@ __attribute__((target("avx2"))) ColourFit sweep_avx2(const ColourStar& star, con
 
 }  // namespace
 
-Colour ColourFit::best(const Colour& otherwise) const {
+Levels ColourFit::best(const Levels& otherwise) const {
   if (!(sum_ww > 0)) return otherwise;
-  Colour colour{};
+  Levels colour{};
   for (std::size_t c = 0; c < n_channels; ++c)
     colour[c] = static_cast<float>(std::clamp(sum_wr[c] / sum_ww, 0.0, 255.0));
   return colour;
 }
 
-double ColourFit::squared_error(const Colour& colour) const {
+double ColourFit::squared_error(const Levels& colour) const {
   double sum = 0;
   for (std::size_t c = 0; c < n_channels; ++c) {
     const auto level = static_cast<double>(colour[c]);

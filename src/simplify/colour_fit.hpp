@@ -21,8 +21,8 @@ struct ColourOptions {
 struct ColourSide {
   LatticePoint a;
   LatticePoint b;
-  Colour colour_a{};
-  Colour colour_b{};
+  Levels colour_a{};
+  Levels colour_b{};
 };
 using ColourStar = std::vector<ColourSide>;
 
@@ -36,9 +36,9 @@ struct ColourFit {
   std::array<double, kMaxChannels> sum_rr{};
 
   /// The least-squares colour within 0 to 255; `otherwise` where no sample depends on it.
-  Colour best(const Colour& otherwise) const;
+  Levels best(const Levels& otherwise) const;
   /// In squared levels, summed over samples and channels.
-  double squared_error(const Colour& colour) const;
+  double squared_error(const Levels& colour) const;
 };
 
 /// Adds the sides of the triangles of v that do not have the vertex `other` (kNone: of all).

@@ -87,20 +87,20 @@ class StarColour {
   }
 
   struct Fit {
-    Colour colour{};
+    Levels colour{};
     double squared_error = 0;
   };
   Fit fit(LatticePoint p) const {
     if (bound_.colours == nullptr) return {};
     const ColourFit fit = fit_colour(star_, *bound_.colours, p);
-    const Colour best = fit.best(colour_);
+    const Levels best = fit.best(colour_);
     return {best, bound_.squared_height_per_level * fit.squared_error(best)};
   }
 
  private:
   const RefineBound& bound_;
   ColourStar star_;
-  Colour colour_{};
+  Levels colour_{};
 };
 
 // Of the triangles (p, q, left) and (q, p, right).

@@ -380,7 +380,7 @@ class Simplifier {
     add_colour_sides(mesh_, v0, v1, colour_star_);
     add_colour_sides(mesh_, v1, v0, colour_star_);
     const ColourFit fit = fit_colour(colour_star_, *colours_, p);
-    const Colour& old = mesh_.colour[at(kept)];
+    const Levels& old = mesh_.colour[at(kept)];
     new_colour_ = mesh_.kind[at(kept)] == VertexKind::kLocked ? old : fit.best(old);
     const double tolerance = options_.colour.tolerance;
     const double allowed = tolerance * tolerance * static_cast<double>(fit.n_channels) * area_of(colour_star_, p);
@@ -454,7 +454,7 @@ class Simplifier {
   std::vector<ChannelQuadrics> colour_quadric_;  // by vertex
   EdgeColour edge_colour_;
   ColourStar colour_star_;
-  Colour new_colour_{};
+  Levels new_colour_{};
 };
 
 }  // namespace

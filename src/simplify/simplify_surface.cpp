@@ -23,8 +23,9 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Planes through border and feature edges, perpendicular to their triangles, weigh that much of the squared length.
-constexpr double kFeatureWeight = 1;
+// Eigenvalues of a quadric below that share of the largest say nothing about the place: nearly flat ground has
+// about the square of the angle between neighbours. With 1e-3 the RMS distance is 4 to 7 % larger.
+constexpr double kFlat = 1e-6;
 
 constexpr std::size_t kMaxStar = 128;  // triangles around one vertex; more are slow to walk
 
@@ -129,7 +130,9 @@ class SurfaceSimplifier {
     if (!(length > 0)) return;
     for (double& x : m) x /= length;
     Quadric<3> quadric;
-    quadric.add_plane(m, point(h), options_.area_weights ? kFeatureWeight * dot(edge, edge) : 1);
+    // As much as two triangles that stand on the edge.
+    const double area = dot(edge, edge) + 2 * kMeanAreas * mesh_.mean_area;
+    quadric.add_plane(m, point(h), options_.area_weights ? area : 1);
     geometry_[at(mesh_.origin[at(h)])] += quadric;
     geometry_[at(mesh_.destination(h))] += quadric;
   }
@@ -213,7 +216,7 @@ class SurfaceSimplifier {
       const Quadric<3> of_place = quadric_of_place(h, quadric);
       Vec<3> p;
       if (options_.placement == Placement::kSegment) return at_place(h, on_segment(of_place, v0, v1), quadric);
-      if (minimum(of_place, p) && is_near(p, v0, v1)) return at_place(h, p, quadric);
+      if (minimum(of_place, p, kFlat) && is_near(p, v0, v1)) return at_place(h, p, quadric);
     }
     const Collapse first = at_end(h, 0, quadric);
     const Collapse second = at_end(h, 1, quadric);

@@ -7,8 +7,6 @@ namespace tinsmith {
 
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 WedgeValues::Block block_of(const SurfaceAttribute& attribute, std::size_t offset) {
   WedgeValues::Block block{attribute.kind, offset, 0, 1};
   if (attribute.kind != AttributeKind::kScalar || attribute.values.empty()) return block;
@@ -56,15 +54,11 @@ void put_in_range(const WedgeValues& all, std::span<double> values) {
 
 double attribute_weight(const SimplifySurfaceOptions& options) {
   if (options.attribute_weight) return *options.attribute_weight;
-  return options.quadric == QuadricForm::kSeparate ? 1 : 1e-5;
+  return options.quadric == QuadricForm::kSeparate ? 1 : 5e-6;
 }
 
 double triangle_weight(const SurfaceMesh& mesh, std::int32_t h, bool area_weights) {
-  if (!area_weights) return 1;
-  const Vec<3>& a = mesh.position[at(mesh.origin[at(h)])];
-  const Vec<3> ab = mesh.position[at(mesh.destination(h))] - a;
-  const Vec<3> n = cross(ab, mesh.position[at(mesh.origin[at(Halfedges::previous(h))])] - a);
-  return std::sqrt(dot(n, n)) / 2;
+  return area_weights ? triangle_area(mesh, h) + kMeanAreas * mesh.mean_area : 1;
 }
 
 }  // namespace tinsmith

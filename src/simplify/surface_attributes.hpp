@@ -78,7 +78,13 @@ std::unique_ptr<AttributeQuadrics> gradient_quadrics(const SurfaceMesh& mesh, co
 /// The one asked for, or the default of the form.
 double attribute_weight(const SimplifySurfaceOptions& options);
 
-/// The weight of a triangle's planes: its area, or 1.
+/// So many mean areas are added to each triangle's own: by the area alone, thin parts made of small triangles
+/// vanish for little. Measured on scans at 20 and 5 %: the largest distance is at most 1.9 times that of equal
+/// weights (CGAL) with 0, 1.4 times with 1, 1.2 times with 2 and with 4; the RMS distance rises by 2 to 5 % with
+/// each.
+inline constexpr double kMeanAreas = 2;
+
+/// The weight of a triangle's planes: its area and kMeanAreas mean ones, or 1.
 double triangle_weight(const SurfaceMesh& mesh, std::int32_t h, bool area_weights);
 
 }  // namespace tinsmith

@@ -45,11 +45,30 @@ ManifoldSurface welded(const ManifoldSurface& pieces) {
   return whole;
 }
 
-// Where pieces meet without being welded they must not part.
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+// Where pieces meet without being welded they must not part. Vertices that edges without length join are of one
+// piece, and free to collapse.
 void lock_coincident(ManifoldSurface& pieces) {
   const std::vector<std::uint32_t> first = first_at_place(pieces.surface);
+  std::vector<std::uint32_t> parent(first.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  for (const auto& t : pieces.surface.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i];
+      const std::uint32_t b = t[(i + 1) % 3];
+      if (first[a] == first[b]) parent[root_of(parent, a)] = root_of(parent, b);
+    }
+  }
+  std::vector<std::uint8_t> is_shared(first.size(), 0);  // by the first vertex of the place
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    if (root_of(parent, v) != root_of(parent, first[v])) is_shared[first[v]] = 1;
+  }
   for (std::size_t v = 0; v < first.size(); ++v) {
-    if (first[v] != v) pieces.is_locked[v] = pieces.is_locked[first[v]] = 1;
+    if (is_shared[first[v]]) pieces.is_locked[v] = 1;
   }
 }
 
@@ -85,6 +104,12 @@ Vec<3> normal_of(const SurfaceMesh& mesh, std::int32_t h) {
   const Vec<3>& a = mesh.position[at(mesh.origin[at(h)])];
   const Vec<3> ab = mesh.position[at(mesh.destination(h))] - a;
   return cross(ab, mesh.position[at(mesh.origin[at(Halfedges::previous(h))])] - a);
+}
+
+double mean_area(const SurfaceMesh& mesh) {
+  double sum = 0;
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) sum += triangle_area(mesh, h);
+  return mesh.n_halfedges() > 0 ? 3 * sum / mesh.n_halfedges() : 0;
 }
 
 bool is_crease(const SurfaceMesh& mesh, std::int32_t h, double least_cosine) {
@@ -123,6 +148,11 @@ Vec<3> scaled(const SurfaceMesh& mesh, const Vec<3>& p) {
   return q;
 }
 
+double triangle_area(const SurfaceMesh& mesh, std::int32_t h) {
+  const Vec<3> n = normal_of(mesh, h);
+  return std::sqrt(dot(n, n)) / 2;
+}
+
 SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects) {
   ManifoldSurface pieces = manifold_of(surface, defects);
   ManifoldSurface whole = welded(pieces);
@@ -137,6 +167,7 @@ SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects) {
   for (const auto& [a, b, c] : whole.surface.triangles)
     triangles.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c)});
   connect(mesh, triangles, mesh.position.size());
+  mesh.mean_area = mean_area(mesh);
   mesh.wedge.reserve(mesh.origin.size());
   for (const auto& t : pieces.surface.triangles) {
     for (const std::uint32_t v : t) mesh.wedge.push_back(static_cast<std::int32_t>(v));

@@ -35,10 +35,14 @@ struct SurfaceMesh : Halfedges {
 
   Vec<3> middle{};
   double extent = 1;
+  double mean_area = 0;  // of the input's triangles
 };
 
 /// A place of the input in the mesh's coordinates.
 Vec<3> scaled(const SurfaceMesh& mesh, const Vec<3>& p);
+
+/// Of the triangle of a halfedge.
+double triangle_area(const SurfaceMesh& mesh, std::int32_t h);
 
 /// The surface welded by place, so far as that leaves it a manifold with borders, with its defects mended and
 /// counted.

@@ -19,7 +19,7 @@ struct Chunk {
   std::vector<double> height;
   std::vector<std::uint8_t> is_settled;  // see WindowMesh
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<Colour> colour;  // by vertex; empty: the surface has none
+  std::vector<Levels> colour;  // by vertex; empty: the surface has none
 
   bool is_empty() const { return triangles.empty(); }
 };

@@ -249,6 +249,21 @@ TEST_F(RasterMosaic, NinetyBillionSamplesOfNextToNothingAreKnownToBeVoid) {
   EXPECT_FALSE(field.read({150000, 150000, 1, 1}).is_valid(150000, 150000));
 }
 
+TEST_F(RasterMosaic, HugeOverlapsAreComparedInPartWhichIsSaid) {
+  std::vector<std::string> paths;
+  for (const double first : {1.0, 3.0}) {
+    paths.push_back(write_sparse(path("sparse" + std::to_string(paths.size()) + ".tif"), 60000, 60000, -9999));
+    const GDALDatasetUniquePtr dataset(GDALDataset::Open(paths.back().c_str(), GDAL_OF_UPDATE));
+    double z = first;
+    ASSERT_EQ(dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, 1, 1, &z, 1, 1, GDT_Float64, 0, 0, nullptr),
+              CE_None);
+  }
+  const auto remark = RasterField(paths, {}).remark_on_overlaps();
+  ASSERT_TRUE(remark);
+  EXPECT_TRUE(mentions({*remark}, {"by up to 2 m", "1 of 1 overlaps were compared, large ones in part"}))
+      << *remark;
+}
+
 TEST_F(RasterMosaic, EmptyBlocksAreOnlyVoidWhereTheirValueIs) {
   const std::string zeros = write_sparse(path("zeros.tif"), 1000, 1000, {});
   EXPECT_FALSE(RasterField({zeros}, {}).is_surely_void({0, 0, 10, 10}));

@@ -67,7 +67,7 @@ TEST(Colour, CheckerOnAPlaneKeepsItsEdges) {
 TEST(Colour, PlaneOfOneColourEndsAsTwoTriangles) {
   const HeightGrid plane = grid_of(33, 33, [](std::int32_t x, std::int32_t) { return 2.0 * x; });
   const ColourGrid colours = colours_of(around(plane, plane.rect).rect, 4, [](std::int32_t, std::int32_t) {
-    return Colour{7, 80, 200, 255};
+    return Levels{7, 80, 200, 255};
   });
   const Draped result = drape(plane, colours, options_of(1, 12));
   EXPECT_EQ(n_triangles(result.mesh), 2);
@@ -102,10 +102,10 @@ TEST(ColourFit, FindsTheLeastSquaresColourOnEveryMachine) {
   EXPECT_EQ(fit.sum_ww, portable.sum_ww);
   EXPECT_EQ(fit.sum_wr, portable.sum_wr);
   EXPECT_EQ(fit.sum_rr, portable.sum_rr);
-  const Colour best = fit.best({});
+  const Levels best = fit.best({});
   for (std::size_t c = 0; c < 3; ++c) {
     for (const float step : {-1.0F, 1.0F}) {
-      Colour other = best;
+      Levels other = best;
       other[c] += step;
       EXPECT_GT(fit.squared_error(other), fit.squared_error(best));
     }

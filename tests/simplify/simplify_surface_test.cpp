@@ -333,6 +333,28 @@ TEST(SimplifySurface, LocksWhatIsNoSurface) {
   EXPECT_EQ(result.surface.triangles.size(), 3U);
 }
 
+// Iso-surfaces have vertices at one place, joined by triangles without area.
+TEST(SimplifySurface, CollapsesTrianglesWithoutArea) {
+  Surface surface = sphere(24);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const auto& [a, b, c] : surface.triangles) {
+    // A triangle of no size stands in the corner a, with two more without area beside it.
+    const auto d = static_cast<std::uint32_t>(surface.position.size());
+    const Point3 place = surface.position[a];
+    surface.position.insert(surface.position.end(), 2, place);
+    for (const std::array<std::uint32_t, 3>& t :
+         {std::array{a, b, d}, std::array{d, b, d + 1}, std::array{d + 1, b, c}, std::array{d + 1, c, a},
+          std::array{a, d, d + 1}})
+      triangles.push_back(t);
+  }
+  surface.triangles = triangles;
+  const Surface result = simplified(surface, {}, 0.1).surface;
+  for (const auto& t : result.triangles) {
+    const Point3 normal = doubled_area_normal(result, t);
+    EXPECT_GT(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2], 0);
+  }
+}
+
 TEST(SimplifySurface, OfNothingIsNothing) {
   SimplifySurfaceReport report;
   EXPECT_TRUE(simplify_surface({}, {}, report).triangles.empty());

@@ -23,7 +23,7 @@ class DrawnColours : public ColourField {
   ColourGrid read(const GridRect& rect) const override {
     constexpr float kNo = std::numeric_limits<float>::quiet_NaN();
     return colours_of(rect, 3, [&](std::int32_t x, std::int32_t y) {
-      return x < end_ ? checker(std::max(x, 0), std::max(y, 0)) : Colour{kNo, kNo, kNo, 0};
+      return x < end_ ? checker(std::max(x, 0), std::max(y, 0)) : Levels{kNo, kNo, kNo, 0};
     });
   }
 
@@ -63,7 +63,7 @@ std::vector<Chunk> seam_round(const GridField& field, const std::vector<Chunk>& 
 
 // How many places belong to several chunks; fails where they disagree.
 int count_shared(const std::vector<Chunk>& chunks) {
-  std::map<LatticePoint, std::pair<double, Colour>> known;
+  std::map<LatticePoint, std::pair<double, Levels>> known;
   std::set<LatticePoint> shared;
   for (const Chunk& chunk : chunks) {
     EXPECT_EQ(chunk.colour.size(), chunk.position.size());
@@ -110,7 +110,7 @@ TEST(WindowColour, IsWhiteWhereTheFieldHasNone) {
   const GridField field(mountains(40, 33, 422, Mask::kNone));
   const Chunk surface = whole(seam_round(field, first_round(field, &colours), 1, &colours));
   ASSERT_FALSE(surface.colour.empty());
-  for (const Colour& colour : surface.colour) {
+  for (const Levels& colour : surface.colour) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(colour[c], 255, 0.01);
   }
 }

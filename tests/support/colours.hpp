@@ -18,7 +18,7 @@ ColourGrid colours_of(const GridRect& rect, std::size_t n_channels, F&& f) {
   ColourGrid grid{rect, std::vector<HeightGrid>(n_channels, HeightGrid{rect, {}})};
   for (std::int32_t y = rect.y0; y < rect.y0 + rect.height; ++y) {
     for (std::int32_t x = rect.x0; x < rect.x0 + rect.width; ++x) {
-      const Colour colour = f(x, y);
+      const Levels colour = f(x, y);
       for (std::size_t c = 0; c < n_channels; ++c) grid.channels[c].z.push_back(static_cast<double>(colour[c]));
     }
   }
@@ -26,12 +26,12 @@ ColourGrid colours_of(const GridRect& rect, std::size_t n_channels, F&& f) {
 }
 
 /// Squares of 12 x 12 samples, black and orange.
-inline Colour checker(std::int32_t x, std::int32_t y) {
-  return (x / 12 + y / 12) % 2 == 0 ? Colour{0, 0, 0, 0} : Colour{240, 120, 20, 0};
+inline Levels checker(std::int32_t x, std::int32_t y) {
+  return (x / 12 + y / 12) % 2 == 0 ? Levels{0, 0, 0, 0} : Levels{240, 120, 20, 0};
 }
 
 /// Noise without any order.
-inline Colour noise(std::int32_t x, std::int32_t y) {
+inline Levels noise(std::int32_t x, std::int32_t y) {
   const auto hash = static_cast<std::uint32_t>(x * 73856093) ^ static_cast<std::uint32_t>(y * 19349663);
   const auto level = [&](std::uint32_t salt) { return static_cast<float>((hash * salt >> 16U) % 256U); };
   return {level(2654435761U), level(2246822519U), level(3266489917U), 0};
@@ -45,7 +45,7 @@ inline void paint(WindowMesh& mesh, const ColourGrid& colours) {
 }
 
 /// Root mean square over the samples in or on triangles and the channels, by brute force.
-inline double colour_rmse(const Soup& soup, const std::vector<Colour>& vertex_colour, const ColourGrid& colours) {
+inline double colour_rmse(const Soup& soup, const std::vector<Levels>& vertex_colour, const ColourGrid& colours) {
   double sum = 0;
   double n = 0;
   for (const auto& [a, b, c] : soup.triangles) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "choose.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith::cli {
@@ -48,6 +49,8 @@ void add_input_flags(CLI::App& verb, InputFlags& flags) {
   verb.add_option("--band", flags.band);
   verb.add_option("--bbox", flags.bbox)->expected(4);
   verb.add_option("--nodata", flags.nodata);
+  verb.add_option("--overlap", flags.overlap);
+  verb.add_flag("--skip-unreadable", flags.skip_unreadable);
   verb.add_option("--vertical-unit", flags.vertical_unit);
 }
 
@@ -61,6 +64,9 @@ InputOptions to_input_options(const InputFlags& flags) {
     if (!options.nodata) throw UsageError(fmt::format("--nodata {}: no number; use one, or nan", flags.nodata));
   }
   if (!flags.vertical_unit.empty()) options.vertical_unit = metres_per_unit(flags.vertical_unit);
+  options.overlap = choose<Overlap>(
+      "--overlap", flags.overlap, {{"first", Overlap::kFirst}, {"last", Overlap::kLast}, {"mean", Overlap::kMean}});
+  options.skip_unreadable = flags.skip_unreadable;
   return options;
 }
 

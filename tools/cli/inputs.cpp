@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
@@ -13,7 +14,12 @@ namespace tinsmith::cli {
 
 OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options) {
   const RasterField field(paths, options);
-  return {static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height()), field.remarks()};
+  OpenedInputs opened;
+  opened.n_samples = static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height());
+  const std::optional<std::string> overlaps = field.remark_on_overlaps();  // may find damage, which remarks() tells
+  opened.remarks = field.remarks();
+  if (overlaps) opened.remarks.push_back(*overlaps);
+  return opened;
 }
 
 void print_remarks(const std::vector<std::string>& remarks, bool quiet) {

@@ -14,7 +14,8 @@ struct OpenedInputs {
   std::vector<std::string> remarks;  // what the user should be told once
 };
 
-/// Opens the rasters as one grid, so that what is wrong with them is said at once. Throws InputError.
+/// Opens the rasters as one grid and compares them where they overlap, so that what is wrong with them is said at
+/// once. Throws InputError.
 OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options);
 
 /// Remarks on standard error, one line each.

@@ -46,13 +46,14 @@ when to stop, at the first that is reached; without any, when no edge can be col
 options:
   --placement P          where a vertex may lie: optimal (anywhere), segment (on the collapsed edge) or subset
                          (every vertex is one of the input) (default optimal)
-  --no-area-weights      all triangles count the same, whatever their area
+  --no-area-weights      all triangles count the same; otherwise by their area and twice the mean area, so that thin
+                         parts made of small triangles stay
   --no-half-space        let triangles turn over (faster, and wrong; to see what the test prevents)
   --quadric Q            how shape and values at the vertices make up the cost: separate (a quadric each, as in the
                          paper), combined (one in all dimensions) or gradient (values as linear functions of the
                          place) (default {})
   --attribute-weight A   how much the values at the vertices count beside the shape, whose largest extent is 1; 0: they
-                         follow (default: 1 for separate, 1e-5 for the others)
+                         follow (default: 1 for separate, 5e-6 for the others)
   --crease D             edges whose triangles meet at more than D degrees are features; 0 to 180 (default: none)
   --no-seams             edges along which colours or normals differ are no features
   --feature-edges FILE   more features: text, one edge a line as two vertex numbers of the input, from 0 in the order

@@ -12,6 +12,7 @@
 
 #include "input_flags.hpp"
 #include "inputs.hpp"
+#include "io/raster_dataset.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 #include "text.hpp"
@@ -98,6 +99,7 @@ int verify_mesh(Flags flags) {
     require_other_than_inputs(flags.json, {mesh});
     require_writable(flags.json);
   }
+  if (verify_options.memory > 0) set_raster_cache(verify_options.memory / 8);
   const OpenedInputs inputs = open_inputs(flags.files, options);
   print_remarks(inputs.remarks, flags.quiet);
   verify_options.progress = make_progress(flags.quiet, inputs.n_samples);

@@ -14,6 +14,7 @@ import sys
 
 import numpy as np
 
+import colours
 import judge
 import meshes
 import plain_ply
@@ -46,9 +47,15 @@ def arguments():
     parser.add_argument("--share", action="append", type=float, help="percent of the triangles (default 50, 20, 5, 1)")
     parser.add_argument("--tool", action="append", choices=list(TOOLS), help="(default: all)")
     parser.add_argument("--option", default="", help="more options for tinsmith simplify, in one word")
+    parser.add_argument("--colours", action="store_true", help="also the forms of quadrics on a coloured bunny")
     parser.add_argument("--repeat", type=int, default=1, help="runs of each, of which the fastest counts")
     parser.add_argument("--out", type=pathlib.Path, help="the table as Markdown (default: BUILD/surface/RESULTS.md)")
-    return parser.parse_args()
+    options = parser.parse_args()
+    # The machine's paths say nothing to the reader of the table.
+    words = sys.argv[1:]
+    skipped = {i + k for i, word in enumerate(words) if word in ("--build", "--out") for k in (0, 1)}
+    options.command = [word for i, word in enumerate(words) if i not in skipped]
+    return options
 
 
 def command_of(tool, options, mesh, n_triangles, out):
@@ -122,10 +129,18 @@ def preface(options):
     option = f" with `{options.option}`" if options.option else ""
     peers = ", ".join(f"{name} {version_of(package)}" for name, package in
                       (("CGAL", "libcgal-dev"), ("VTK", "python3-vtk9"), ("meshoptimizer", "libmeshoptimizer-dev")))
-    return (f"tinsmith{option} and {peers}, on {m['processor']}, one thread each. Distances are symmetric, between "
+    command = " ".join(["tools/bench/surface/run.sh", *map(shlex.quote, options.command)])
+    return (f"Made by `{command}`.\n\ntinsmith{option} and {peers}, on {m['processor']}, one thread each. Distances are symmetric, between "
             f"{judge.N_SAMPLES} samples (for the largest one also the vertices) and the other surface, as thousandths "
             "of the diagonal of the mesh's box, by VTK. Seconds: the simplification alone, without files. Turned "
             "edges: the normals of the two triangles are more than 90 degrees apart.")
+
+
+def tables(options):
+    for name in options.mesh or meshes.MESHES:
+        yield from table(options, load(name, options.build / "surface"))
+    if options.colours:
+        yield from colours.table(options.build, load("bunny", options.build / "surface"), [20, 5, 1])
 
 
 def main():
@@ -134,10 +149,9 @@ def main():
     out = options.out or folder / "RESULTS.md"
     with open(out, "w") as file:
         print(preface(options), file=file)
-        for name in options.mesh or meshes.MESHES:
-            for text in table(options, load(name, folder)):
-                print(text, flush=True)
-                print(text, file=file, flush=True)
+        for text in tables(options):
+            print(text, flush=True)
+            print(text, file=file, flush=True)
     print(f"written: {out}", file=sys.stderr)
 
 
