@@ -23,6 +23,7 @@ struct CompressReport {
   std::uint64_t start_triangles = 0;           // after select and triangulate
   std::vector<std::uint64_t> round_triangles;  // after each round
   std::vector<double> round_seconds;           // spent in the tasks of the round, all threads added up
+  std::uint64_t unreadable_inputs = 0;         // left as voids, wholly or in part (InputOptions::skip_unreadable)
   std::vector<std::string> remarks;            // what the user should be told once
 };
 

@@ -27,6 +27,12 @@ class InputError : public Error {
   int exit_code() const noexcept override { return 3; }
 };
 
+/// An input that can't be opened, or samples of it that can't be read, as opposed to one that makes no sense.
+class UnreadableError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// The output can't be written; what stood there before still stands there.
 class OutputError : public Error {
  public:

@@ -87,11 +87,6 @@ GDALDatasetUniquePtr open_raster(const std::string& path) {
   return dataset;
 }
 
-void set_raster_cache(std::uint64_t bytes) {
-  constexpr std::uint64_t kMost = std::numeric_limits<GIntBig>::max();
-  GDALSetCacheMax64(static_cast<GIntBig>(std::min(bytes, kMost)));
-}
-
 DatasetPool::DatasetPool() : max_idle_(max_idle()) {}
 
 DatasetPool::~DatasetPool() {

@@ -15,16 +15,6 @@
 
 namespace tinsmith {
 
-/// An input that can't be opened, or samples of it that can't be read, as opposed to one that makes no sense.
-class UnreadableError : public InputError {
- public:
-  using InputError::InputError;
-};
-
-/// The memory that GDAL may use for decoded blocks of all rasters together, in bytes. Without a call GDAL takes
-/// what GDAL_CACHEMAX says, or a twentieth of the machine's.
-void set_raster_cache(std::uint64_t bytes);
-
 /// While one lives, GDAL prints nothing from this thread; its last message is kept for gdal_reason().
 class QuietGdal {
  public:

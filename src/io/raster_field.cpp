@@ -202,4 +202,9 @@ bool RasterField::is_surely_void(const GridRect& rect) const {
   });
 }
 
+void set_raster_cache(std::uint64_t bytes) {
+  constexpr std::uint64_t kMost = std::numeric_limits<GIntBig>::max();
+  GDALSetCacheMax64(static_cast<GIntBig>(std::min(bytes, kMost)));
+}
+
 }  // namespace tinsmith

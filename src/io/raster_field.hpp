@@ -52,4 +52,8 @@ class RasterField : public HeightField {
   std::unique_ptr<Impl> impl_;
 };
 
+/// The memory that GDAL may use for decoded blocks of all rasters together, in bytes. Without a call GDAL takes
+/// what GDAL_CACHEMAX says, or a twentieth of the machine's.
+void set_raster_cache(std::uint64_t bytes);
+
 }  // namespace tinsmith

@@ -13,6 +13,7 @@
 #include "io/input_identity.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
+#include "pipeline/memory_plan.hpp"
 #include "pipeline/rounds.hpp"
 #include "pipeline/run_folder.hpp"
 #include "pipeline/search.hpp"
@@ -67,6 +68,7 @@ struct Target {
   const HeightField& field;
   const GridFrame& frame;
   std::string output;
+  std::uint64_t chunk_memory = 0;  // bytes
 };
 
 // How much the format may change a height of the result, in vertical units. Vertices keep to the heights of the
@@ -99,8 +101,8 @@ std::shared_ptr<const TerrainSurface> compress_field(const Target& target, const
   const double unit = target.frame.metres_per_vertical_unit;
   const auto run = [&](double tolerance, CompressReport& of_run) {
     const double rounding = rounding_of_format(target.field, target.output, tolerance);
-    const RoundsOptions rounds{tolerance - rounding, options.window, options.placement, options.effort,
-                               folder_of(tolerance)};
+    const RoundsOptions rounds{tolerance - rounding, options.window,       options.placement,
+                               options.effort,       folder_of(tolerance), target.chunk_memory};
     auto surface = run_rounds(target.field, target.frame, rounds, options.progress, of_run);
     require_triangles(*surface);
     of_run.tolerance = tolerance * unit;
@@ -155,17 +157,26 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
   require_mesh_extension(output);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, thread_count(options));
   const RasterField field(inputs, input_options);
-  const Target target{field, field.frame(), output};
+  const MemoryPlan memory =
+      plan_memory(field, options.window, static_cast<int>(thread_count(options)), options.memory);
+  set_raster_cache(memory.raster_cache);
+  const Target target{field, field.frame(), output, memory.chunks};
   RunFolder folder(output, options.tmp, identity_of(inputs, input_options, options, target), options.fresh);
   CompressReport report;
   try {
     compress_and_write(target, options, folder, report);
+  } catch (const UnreadableError&) {
+    throw;  // what was read is of use when the rest can be read again
+  } catch (const InputError&) {
+    folder.remove();
+    throw;
   } catch (const ResultError&) {
     folder.remove();
     throw;
   }
   folder.remove();
-  report.remarks.insert(report.remarks.begin(), field.remarks().begin(), field.remarks().end());
+  for (std::string& remark : field.remarks()) report.remarks.push_back(std::move(remark));
+  report.unreadable_inputs = field.n_unreadable();
   if (options.progress) options.progress(1, "write");
   return report;
 }
@@ -178,7 +189,7 @@ Tin compress(const HeightArray& heights, const CompressOptions& options, Compres
   frame.geotransform = {-heights.step_x / 2, heights.step_x, 0, -heights.step_y / 2, 0, heights.step_y};
   CompressReport own;
   const auto surface = compress_field(
-      {field, frame, {}}, options, [](double) { return std::string(); }, report ? *report : own);
+      {field, frame, {}, 0}, options, [](double) { return std::string(); }, report ? *report : own);
   Tin tin;
   surface->for_each_vertex_block([&](TerrainSurface::VertexBlock block) {
     for (const auto& [p, height] : block) {

@@ -33,6 +33,7 @@ void for_each_vector(ChunkType& chunk, F&& f) {
   f(chunk.height);
   f(chunk.is_settled);
   f(chunk.triangles);
+  f(chunk.colour);
 }
 
 }  // namespace

@@ -140,13 +140,20 @@ TEST_F(Program, InfoDescribesAsTextAndAsJson) {
   EXPECT_EQ(json::parse(run({"info", dem, "--json"}).out)["size"], "40 x 40 samples");
 }
 
-TEST_F(Program, InterruptedLeavesNothing) {
-  const std::string dem = hill("dem.tif", 1500);
-  const Outcome outcome =
-      run({"compress", dem, path("out.ply"), "--max-error", "0.01", "--window", "32"}, {{}, 300});
+TEST_F(Program, InterruptedGoesOnWithTheSameCommand) {
+  const std::string dem = hill("dem.tif", 800);
+  const std::vector<std::string> words{"compress", dem,  path("out.ply"), "--max-error", "0.01",
+                                       "--window", "32", "--no-verify"};
+  const Outcome outcome = run(words, {{}, 300});
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(files(), std::vector<std::string>{"dem.tif"});
+  EXPECT_NE(outcome.err.find("the same command goes on"), std::string::npos) << outcome.err;
+  EXPECT_EQ(files(), (std::vector<std::string>{".out.ply.tinsmith", "dem.tif"}));
+  ASSERT_EQ(run(words).exit_code, 0);
+  const std::string resumed = text_of(path("out.ply"));
+  EXPECT_EQ(files(), (std::vector<std::string>{"dem.tif", "out.ply"}));
+  ASSERT_EQ(run(words).exit_code, 0);
+  EXPECT_EQ(text_of(path("out.ply")), resumed);
 }
 
 TEST_F(Program, SaysWhenItsResultsCantBePrinted) {

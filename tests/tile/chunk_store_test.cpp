@@ -33,6 +33,7 @@ Chunk random_chunk(std::mt19937& random) {
     chunk.position.push_back({static_cast<std::int32_t>(random()), static_cast<std::int32_t>(random())});
     chunk.height.push_back(static_cast<double>(random()) / 7);
     chunk.is_settled.push_back(random() % 2);
+    chunk.colour.push_back({static_cast<float>(random() % 256), 0, 7, 0});
     chunk.triangles.push_back({v, (v + 1) % n, (v + 2) % n});
   }
   return chunk;

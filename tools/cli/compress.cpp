@@ -46,11 +46,17 @@ options:
                        takes about 2.5 times as long as fast
   --window T           samples along a window's side (default {}); may change the result a little
   --threads N          0: as many as the machine has (default 0); never changes the result
+  --memory SIZE        what the whole program may take, as 512M, 1.5G or bytes (default: a quarter of the machine's);
+                       finished windows beyond it go to the disk; never changes the result
+  --tmp DIR            folder for unfinished work (default: a hidden folder beside OUTPUT, removed at the end)
+  --fresh              throw away the unfinished work of an earlier run on the same OUTPUT with other options
 )" TINSMITH_INPUT_MANUAL
                                 R"(  --no-verify          don't measure the written file
   --json FILE          the report as one JSON object; - prints it to standard output and nothing else
   --quiet              no progress bar, no remarks
   --verbose            each round's triangles and seconds, and the whole certificate
+
+A run that was stopped (killed, disk full, interrupted) goes on with the same command, and gives the same bytes.
 
 Cells are taken as samples at their centres; cells with a void at a corner become holes. Heights and tolerances in
 the report are metres, whatever the raster's units. The bytes written depend on the inputs and options only.
@@ -74,6 +80,9 @@ struct Flags {
   std::string effort = "default";
   int window = CompressOptions().window;
   int threads = CompressOptions().threads;
+  std::string memory;
+  std::string tmp;
+  bool fresh = false;
   InputFlags input;
   bool no_verify = false;
   std::string json;
@@ -102,6 +111,11 @@ CompressOptions to_options(const Flags& flags) {
       "--effort", flags.effort, {{"fast", Effort::kFast}, {"default", Effort::kDefault}, {"best", Effort::kBest}});
   options.window = flags.window;
   options.threads = flags.threads;
+  if (!flags.memory.empty()) options.memory = to_bytes("--memory", flags.memory);
+  if (!flags.tmp.empty() && !std::filesystem::is_directory(flags.tmp))
+    throw UsageError(fmt::format("--tmp {}: no such folder; make it or name another", flags.tmp));
+  options.tmp = flags.tmp;
+  options.fresh = flags.fresh;
   return options;
 }
 
@@ -132,6 +146,7 @@ void add_compression(Json& report, const CompressReport& compressed, const std::
   report["start_triangles"] = compressed.start_triangles;
   report["round_triangles"] = compressed.round_triangles;
   report["round_seconds"] = compressed.round_seconds;
+  report["unreadable_inputs"] = compressed.unreadable_inputs;
   report["remarks"] = compressed.remarks;
 }
 
@@ -151,8 +166,10 @@ int compress_rasters(Flags flags) {
   report["seconds"] = resources_so_far().seconds;
   add_compression(report, compressed, output);
   if (!flags.no_verify) {
-    add_certificate(report, verify(flags.files, output, input_options, {flags.threads, 0, {}, options.progress}),
-                    compressed.tolerance);
+    add_certificate(
+        report,
+        verify(flags.files, output, input_options, {flags.threads, options.memory, flags.tmp, options.progress}),
+        compressed.tolerance);
     report["verify_seconds"] = resources_so_far().seconds - report["seconds"].get<double>();
   }
   options.progress = {};  // ends the line of the bar
@@ -176,6 +193,9 @@ void add_compress(CLI::App& program, Run& run) {
   verb.add_option("--effort", flags->effort);
   verb.add_option("--window", flags->window);
   verb.add_option("--threads", flags->threads);
+  verb.add_option("--memory", flags->memory);
+  verb.add_option("--tmp", flags->tmp);
+  verb.add_flag("--fresh", flags->fresh);
   add_input_flags(verb, flags->input);
   verb.add_flag("--no-verify", flags->no_verify);
   verb.add_option("--json", flags->json);

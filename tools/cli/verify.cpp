@@ -12,7 +12,7 @@
 
 #include "input_flags.hpp"
 #include "inputs.hpp"
-#include "io/raster_dataset.hpp"
+#include "io/raster_field.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 #include "text.hpp"

@@ -1,0 +1,46 @@
+#include "pipeline/memory_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/machine_memory.hpp"
+#include "tinsmith/error.hpp"
+
+namespace tinsmith {
+
+namespace {
+
+constexpr std::uint64_t kMega = 1 << 20;
+constexpr std::uint64_t kOwn = 60 * kMega;
+constexpr std::uint64_t kLeast = 16 * kMega;  // of the cache, and for chunks
+// Of a window at work: by count 206 bytes a vertex of the start mesh, at worst one a sample; its samples, which
+// reach beyond it in later rounds; and what the allocator keeps between windows.
+constexpr std::uint64_t kBytesPerSample = 450;
+
+std::string in_megabytes(std::uint64_t bytes) { return fmt::format("{}M", (bytes + kMega - 1) / kMega); }
+
+}  // namespace
+
+MemoryPlan plan_memory(const RasterField& field, std::int32_t window, int threads, std::uint64_t memory) {
+  MemoryPlan plan;
+  plan.total = memory > 0 ? memory : machine_memory() / 4;
+  plan.own = kOwn;
+  const std::uint64_t side = static_cast<std::uint64_t>(window) + 3;
+  const std::uint64_t samples = std::min(side, static_cast<std::uint64_t>(field.width())) *
+                                std::min(side, static_cast<std::uint64_t>(field.height()));
+  plan.windows = static_cast<std::uint64_t>(threads) * samples * kBytesPerSample;
+  const std::uint64_t least = plan.own + plan.windows + 2 * kLeast;
+  if (plan.total < least)
+    throw ResourceError(fmt::format(
+        "{} of memory are too little for {} windows of {} x {} samples at a time, which need {}; give more "
+        "with --memory, or fewer --threads, or a smaller --window",
+        in_megabytes(plan.total), threads, window, window, in_megabytes(least)));
+  const std::uint64_t rest = plan.total - plan.own - plan.windows;
+  // Later rounds read a row of windows anew, one and a half rows after the first.
+  plan.raster_cache = std::clamp(3 * field.cache_for_row(window, threads), kLeast, rest / 2);
+  plan.chunks = std::min(rest - plan.raster_cache, rest / 2);
+  return plan;
+}
+
+}  // namespace tinsmith
