@@ -10,6 +10,7 @@
 #include "io/mesh_file.hpp"
 #include "io/raster_description.hpp"
 #include "io/raster_field.hpp"
+#include "io/raster_list.hpp"
 #include "render/view.hpp"
 
 namespace tinsmith {
@@ -35,8 +36,9 @@ HeightRange range_of(const HeightField& field) {
   HeightRange range;
   for (std::int32_t y = 0; y < field.height(); y += kBlockSide) {
     for (std::int32_t x = 0; x < field.width(); x += kBlockSide) {
-      const HeightGrid block =
-          field.read({x, y, std::min(kBlockSide, field.width() - x), std::min(kBlockSide, field.height() - y)});
+      const GridRect rect{x, y, std::min(kBlockSide, field.width() - x), std::min(kBlockSide, field.height() - y)};
+      if (field.is_surely_void(rect)) continue;
+      const HeightGrid block = field.read(rect);
       for (const double z : block.z)
         if (!std::isnan(z)) range.add(z);
     }
@@ -76,9 +78,16 @@ std::string horizontal_unit(const std::string& crs_wkt, const std::string& path)
   return crs_wkt.empty() ? "metre (no CRS)" : crs_units(crs_wkt, path).horizontal_unit;
 }
 
+bool is_list(const std::string& path) { return path.starts_with('@'); }
+
+Entries describe_list(const std::string& path, const RasterField& field) {
+  return {{"format", fmt::format("list of {} inputs", expand_lists({path}).size())},
+          {"size", fmt::format("{} x {} samples in all", field.width(), field.height())}};
+}
+
 Entries describe_raster(const std::string& path, const InputOptions& options) {
-  Entries entries = describe_raster_file(path, options);
   const RasterField field({path}, options);
+  Entries entries = is_list(path) ? describe_list(path, field) : describe_raster_file(path, options);
   const GridFrame& frame = field.frame();
   const double middle_column = field.width() / 2.0;
   const double middle_row = field.height() / 2.0;
@@ -145,7 +154,7 @@ Entries describe_mesh(const std::string& path, const InputOptions& options) {
 }  // namespace
 
 Entries describe(const std::string& path, const InputOptions& options) {
-  return is_mesh_path(path) ? describe_mesh(path, options) : describe_raster(path, options);
+  return is_mesh_path(path) && !is_list(path) ? describe_mesh(path, options) : describe_raster(path, options);
 }
 
 }  // namespace tinsmith

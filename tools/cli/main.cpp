@@ -62,6 +62,14 @@ int answer(const CLI::App& program, const CLI::ParseError& error, const std::str
   return complain(std::string(error.what()) + "; see tinsmith " + verb + "--help", kWrongUsage);
 }
 
+// What each verb can do about its memory.
+const char* way_to_less_memory(const std::string& verb) {
+  if (verb == "compress") return "use a smaller --window, fewer --threads, less --memory or a machine with more";
+  if (verb == "verify") return "use fewer --threads, less --memory or a machine with more";
+  if (verb == "render") return "draw a smaller picture or --bbox, or use a machine with more";
+  return "use a machine with more";
+}
+
 int run_program(int argc, char** argv) {
   CLI::App program("", "tinsmith");
   set_manual(program, kManual);
@@ -94,7 +102,7 @@ int main(int argc, char** argv) {
   } catch (const tinsmith::Error& error) {
     return complain(error.what(), error.exit_code());
   } catch (const std::bad_alloc&) {
-    return complain("out of memory; use a smaller --window, fewer --threads or a machine with more",
+    return complain(std::string("out of memory; ") + tinsmith::cli::way_to_less_memory(argc > 1 ? argv[1] : ""),
                     tinsmith::cli::kNoResources);
   } catch (const std::exception& error) {
     return complain(std::string("unexpected failure: ") + error.what() + "; please report it",
