@@ -51,4 +51,12 @@ std::uint64_t machine_memory() {
   return std::min(physical, group_limit());
 }
 
+std::uint64_t resident_memory() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t all = 0;
+  std::uint64_t resident = 0;  // pages
+  file >> all >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+}
+
 }  // namespace tinsmith

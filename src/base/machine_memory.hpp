@@ -8,4 +8,7 @@ namespace tinsmith {
 /// Bytes of the machine's memory, or of the control group's limit where that is less.
 std::uint64_t machine_memory();
 
+/// Bytes of it that this process holds now; 0 when the system does not say.
+std::uint64_t resident_memory();
+
 }  // namespace tinsmith

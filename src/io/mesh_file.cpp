@@ -21,15 +21,18 @@ namespace {
 
 struct Format {
   std::string_view extension;
+  std::uint64_t vertex_bytes;    // of a text line with the coordinates of a metric CRS, heights in full
+  std::uint64_t triangle_bytes;  // of a text line without the numbers of the vertices
+  std::uint64_t digits;          // numbers of vertices on the two kinds of lines; 0: not a text
   void (*write)(const std::string&, const TerrainSurface&, const GridFrame&);
   std::string (*visit)(const std::string&, const MeshVisitor&);
 };
 
 constexpr std::array kFormats{
-    Format{".ply", write_ply, visit_ply},
-    Format{".obj", write_obj, visit_obj},
-    Format{".glb", write_glb, visit_glb},
-    Format{".2dm", write_two_dm, visit_two_dm},
+    Format{".ply", 24, 13, 0, write_ply, visit_ply},
+    Format{".obj", 45, 5, 3, write_obj, visit_obj},
+    Format{".glb", 12, 12, 0, write_glb, visit_glb},
+    Format{".2dm", 50, 10, 4, write_two_dm, visit_two_dm},
 };
 
 std::string extension(const std::string& path) {
@@ -97,6 +100,13 @@ double height_rounding(const std::string& path, double lowest, double highest) {
 
 void require_format_holds(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles) {
   if (extension(path) == ".glb") require_glb_holds(path, n_vertices, n_triangles);
+}
+
+std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles) {
+  require_mesh_extension(path);
+  const Format& format = *format_of(path);
+  const std::uint64_t n_digits = format.digits * std::to_string(n_vertices).size();
+  return n_vertices * format.vertex_bytes + n_triangles * (format.triangle_bytes + n_digits);
 }
 
 void write_mesh(const std::string& path, const TerrainSurface& surface, const GridFrame& frame) {

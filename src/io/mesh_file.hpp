@@ -28,6 +28,9 @@ double height_rounding(const std::string& path, double lowest, double highest);
 /// What passes here has a size that write_mesh can write. Only .glb has a limit: 4 GiB.
 void require_format_holds(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles);
 
+/// About how many bytes write_mesh will write; for text an estimate, by numbers of common length.
+std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles);
+
 /// Writes aside and renames when whole, so that a failed write leaves the previous file as it was. Writes the
 /// .prj companion of .obj and .2dm the same way. The bytes depend on the arguments only, the path excluded.
 /// Goes through the vertices once and through the triangles once, in a few MB of memory. Throws OutputError (with

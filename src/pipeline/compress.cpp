@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +12,12 @@
 #include "io/input_identity.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
+#include "pipeline/compress_options.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "pipeline/rounds.hpp"
 #include "pipeline/run_folder.hpp"
 #include "pipeline/search.hpp"
+#include "pipeline/told_surface.hpp"
 #include "samples/array_field.hpp"
 #include "stitch/welded_surface.hpp"
 #include "tile/chunk_store.hpp"
@@ -27,24 +28,6 @@ namespace tinsmith {
 
 namespace {
 
-void require_sensible(const CompressOptions& options) {
-  const int stops = options.max_error.has_value() + options.triangles.has_value() + options.ratio.has_value();
-  if (stops != 1) throw UsageError("give exactly one of max_error, triangles and ratio, for example max_error = 5");
-  if (options.max_error && !(*options.max_error >= 0 && std::isfinite(*options.max_error)))
-    throw UsageError(fmt::format("max_error is {}: it must be a number of metres, 0 or more", *options.max_error));
-  if (options.triangles && !(*options.triangles >= 2 && std::isfinite(*options.triangles)))
-    throw UsageError(fmt::format("triangles is {}: it must be 2 or more", *options.triangles));
-  if (options.ratio && !(*options.ratio > 0 && *options.ratio <= 1))
-    throw UsageError(fmt::format("ratio is {}: it must be more than 0 and at most 1", *options.ratio));
-  if (options.window < 4)
-    throw UsageError(fmt::format("window is {}: it must be 4 samples or more", options.window));
-  if (options.threads < 0) throw UsageError(fmt::format("threads is {}: it must be 0 or more", options.threads));
-}
-
-std::size_t thread_count(const CompressOptions& options) {
-  return static_cast<std::size_t>(options.threads > 0 ? options.threads : tbb::info::default_concurrency());
-}
-
 // The lowest and highest valid sample, read in rows of windows.
 std::array<double, 2> height_range(const HeightField& field) {
   constexpr std::int32_t kSide = 1024;
@@ -52,8 +35,9 @@ std::array<double, 2> height_range(const HeightField& field) {
   double high = -low;
   for (std::int32_t y = 0; y < field.height(); y += kSide) {
     for (std::int32_t x = 0; x < field.width(); x += kSide) {
-      const HeightGrid grid =
-          field.read({x, y, std::min(kSide, field.width() - x), std::min(kSide, field.height() - y)});
+      const GridRect rect{x, y, std::min(kSide, field.width() - x), std::min(kSide, field.height() - y)};
+      if (field.is_surely_void(rect)) continue;
+      const HeightGrid grid = field.read(rect);
       for (const double z : grid.z) {
         if (z < low) low = z;
         if (z > high) high = z;
@@ -95,15 +79,33 @@ void require_triangles(const TerrainSurface& surface) {
 // Where each attempt keeps its work: by its tolerance.
 using FolderOf = std::function<std::string(double tolerance)>;
 
+// The stage under another name, which must outlive it.
+Progress renamed(const Progress& progress, const std::string& stage) {
+  if (!progress) return {};
+  return [&](double fraction, std::string_view) { return progress(fraction, stage); };
+}
+
+// What begins anew since something was found damaged has been farther.
+Progress never_falling(const Progress& progress) {
+  if (!progress) return {};
+  return [progress, stage = std::string(), told = 0.0](double fraction, std::string_view now) mutable {
+    told = now == stage ? std::max(told, fraction) : fraction;
+    stage = now;
+    return progress(told, now);
+  };
+}
+
 // Tolerances here are in the vertical unit of the field.
 std::shared_ptr<const TerrainSurface> compress_field(const Target& target, const CompressOptions& options,
                                                      const FolderOf& folder_of, CompressReport& report) {
   const double unit = target.frame.metres_per_vertical_unit;
+  int n_tries = 0;
   const auto run = [&](double tolerance, CompressReport& of_run) {
+    const std::string stage = options.max_error ? "simplify" : fmt::format("try {}", ++n_tries);
     const double rounding = rounding_of_format(target.field, target.output, tolerance);
     const RoundsOptions rounds{tolerance - rounding, options.window,       options.placement,
                                options.effort,       folder_of(tolerance), target.chunk_memory};
-    auto surface = run_rounds(target.field, target.frame, rounds, options.progress, of_run);
+    auto surface = run_rounds(target.field, target.frame, rounds, renamed(options.progress, stage), of_run);
     require_triangles(*surface);
     of_run.tolerance = tolerance * unit;
     return surface;
@@ -140,7 +142,7 @@ void compress_and_write(const Target& target, const CompressOptions& options, co
   for (int restarts = 0;; ++restarts) {
     const auto surface = compress_field(target, options, folder_of, report);
     try {
-      write_mesh(target.output, *surface, target.frame);
+      write_mesh(target.output, ToldSurface(*surface, options.progress), target.frame);
       return;
     } catch (const DamagedChunk& damage) {
       if (restarts == kMostRestarts) throw OutputError(std::string(damage.what()) + "; choose another --tmp");
@@ -152,13 +154,15 @@ void compress_and_write(const Target& target, const CompressOptions& options, co
 }  // namespace
 
 CompressReport compress(const std::vector<std::string>& inputs, const std::string& output,
-                        const InputOptions& input_options, const CompressOptions& options) {
+                        const InputOptions& input_options, const CompressOptions& asked) {
+  CompressOptions options = asked;
+  options.progress = never_falling(asked.progress);
   require_sensible(options);
   require_mesh_extension(output);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, thread_count(options));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(thread_count(options)));
   const RasterField field(inputs, input_options);
-  const MemoryPlan memory =
-      plan_memory(field, options.window, static_cast<int>(thread_count(options)), options.memory);
+  const MemoryPlan memory = plan_memory(field, options.window, thread_count(options), options.memory);
   set_raster_cache(memory.raster_cache);
   const Target target{field, field.frame(), output, memory.chunks};
   RunFolder folder(output, options.tmp, identity_of(inputs, input_options, options, target), options.fresh);
@@ -177,13 +181,13 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
   folder.remove();
   for (std::string& remark : field.remarks()) report.remarks.push_back(std::move(remark));
   report.unreadable_inputs = field.n_unreadable();
-  if (options.progress) options.progress(1, "write");
   return report;
 }
 
 Tin compress(const HeightArray& heights, const CompressOptions& options, CompressReport* report) {
   require_sensible(options);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, thread_count(options));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(thread_count(options)));
   const ArrayField field(heights.z, heights.width, heights.height);
   GridFrame frame;
   frame.geotransform = {-heights.step_x / 2, heights.step_x, 0, -heights.step_y / 2, 0, heights.step_y};

@@ -89,6 +89,7 @@ Certificate measure_blocks(BlockedMesh& mesh, const Samples& samples, int thread
   BlockQueue queue(mesh, samples, memory);
   tbb::parallel_for(
       0, std::max(1, threads), [&](int) { queue.work(); }, tbb::simple_partitioner());
+  report_progress(samples, 1);  // with nothing to measure, too
   return conclude(mesh, std::move(queue.findings()), samples.frame);
 }
 

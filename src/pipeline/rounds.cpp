@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "pipeline/window_queue.hpp"
+#include "pipeline/workload.hpp"
 #include "stitch/welded_surface.hpp"
-#include "stitch/window_task.hpp"
 #include "tile/chunk_store.hpp"
 #include "tinsmith/error.hpp"
 
@@ -31,9 +31,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-// Part of the whole run that each round takes, for the progress; measured on mountains at 10 m.
-constexpr std::array<double, kRounds> kShare{0.9, 0.06, 0.04};
 
 // How often a run begins anew, from what is whole, because a chunk was found damaged: then the disk is no good.
 constexpr int kMostRestarts = 100;
@@ -63,9 +60,11 @@ class Run {
         graph_(result.graph),
         store_(result.store),
         surface_(result.surface),
-        queue_(graph_, [&](WindowName task) { return store_.is_done(task); }) {}
+        workload_(field, graph_),
+        queue_(graph_, [&](WindowName task) { return note_if_done(task); }) {}
 
   void operator()() {
+    tell();  // where an earlier run stopped
     weld_what_is_done();
     start_runners(n_most_);
     group_.wait();
@@ -75,6 +74,12 @@ class Run {
   double seconds(int round) const { return seconds_[at(round)]; }
 
  private:
+  bool note_if_done(WindowName task) {
+    if (!store_.is_done(task)) return false;
+    workload_.add_done(task);
+    return true;
+  }
+
   void start_runners(std::int64_t n_ready) {
     const std::lock_guard lock(runners_mutex_);
     for (; n_ready > 0 && n_runners_ < n_most_; --n_ready, ++n_runners_) group_.run([this] { run_tasks(); });
@@ -84,6 +89,7 @@ class Run {
     try {
       while (const auto task = is_stopped_ ? std::nullopt : queue_.next()) {
         work(*task);
+        workload_.add_done(*task);
         start_runners(queue_.done(*task) - 1);
         tell();
       }
@@ -108,9 +114,9 @@ class Run {
   }
 
   void work_first(WindowName task) {
+    if (workload_.is_void(task)) return store_.put_empty(task);
     const GridRect rect = graph_.samples(task);
-    if (field_.is_surely_void(rect)) return store_.put_empty(task);
-    FirstChunk result = first_chunk(field_, rect, window_options(rect));
+    FirstChunk result = first_chunk(field_, rect, window_options(frame_, rect, options_));
     const WindowCounts counts{result.samples, result.valid_cells, result.start_triangles,
                               result.chunk.triangles.size()};
     store_.put(task, parts_of(task, std::move(result.chunk)), counts);
@@ -122,7 +128,7 @@ class Run {
     std::vector<const Chunk*> parts;
     parts.reserve(held.size());
     for (const auto& part : held) parts.push_back(part.get());
-    Chunk chunk = seam_chunk(field_, parts, window_options(graph_.samples(task)));
+    Chunk chunk = seam_chunk(field_, parts, window_options(frame_, graph_.samples(task), options_));
     const WindowCounts counts{0, 0, 0, chunk.triangles.size()};
     store_.put(task, parts_of(task, std::move(chunk)), counts);
   }
@@ -132,12 +138,6 @@ class Run {
     std::vector<ChunkPart> whole;
     if (!chunk.is_empty()) whole.push_back({task.window, std::move(chunk)});
     return whole;
-  }
-
-  WindowOptions window_options(const GridRect& window) const {
-    const auto [step_x, step_y] =
-        frame_.metres_per_step(window.x0 + window.width / 2.0, window.y0 + window.height / 2.0);
-    return {options_.tolerance, step_y / step_x, options_.placement, options_.effort};
   }
 
   // Results are welded in the order of the windows, by whoever comes by.
@@ -151,12 +151,8 @@ class Run {
 
   void tell() {
     if (!progress_) return;
-    double fraction = 0;
-    for (int r = 0; r < graph_.n_rounds(); ++r)
-      fraction +=
-          kShare[at(r)] * static_cast<double>(queue_.n_done(r)) / static_cast<double>(graph_.windows(r).count());
     const std::lock_guard lock(tell_mutex_);
-    told_ = std::max(told_, fraction);
+    told_ = std::max(told_, workload_.fraction());
     if (progress_(told_, "simplify")) return;
     throw Interrupted(options_.folder.empty() ? "interrupted; nothing was written"
                                               : "interrupted; the same command goes on from here");
@@ -169,6 +165,7 @@ class Run {
   const WindowGraph& graph_;
   ChunkStore& store_;
   WeldedSurface& surface_;
+  Workload workload_;
   WindowQueue queue_;
   tbb::task_group group_;
   std::mutex runners_mutex_;
@@ -199,6 +196,12 @@ void fill(CompressReport& report, const Finished& result, const Run& run) {
 }
 
 }  // namespace
+
+WindowOptions window_options(const GridFrame& frame, const GridRect& window, const RoundsOptions& options) {
+  const auto [step_x, step_y] =
+      frame.metres_per_step(window.x0 + window.width / 2.0, window.y0 + window.height / 2.0);
+  return {options.tolerance, step_y / step_x, options.placement, options.effort};
+}
 
 std::shared_ptr<const TerrainSurface> run_rounds(const HeightField& field, const GridFrame& frame,
                                                  const RoundsOptions& options, const Progress& progress,

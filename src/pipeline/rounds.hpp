@@ -8,6 +8,7 @@
 #include "geodesy/grid_frame.hpp"
 #include "mesh/terrain_mesh.hpp"
 #include "samples/height_grid.hpp"
+#include "stitch/window_task.hpp"
 #include "tinsmith/compress.hpp"
 #include "tinsmith/options.hpp"
 
@@ -21,6 +22,9 @@ struct RoundsOptions {
   std::string folder{};                  // where finished windows are kept, there already; empty: in memory only
   std::uint64_t chunk_memory = 1 << 26;  // bytes for chunks when there is a folder
 };
+
+/// What the tasks on a window are done with.
+WindowOptions window_options(const GridFrame& frame, const GridRect& window, const RoundsOptions& options);
 
 /// Compresses a field; goes on from what an earlier run with the same options left in the folder. Must be called
 /// inside the task arena that limits the threads; the result does not depend on how many there are. Fills the

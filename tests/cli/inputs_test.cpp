@@ -1,5 +1,7 @@
 // Inputs as a user names them: lists, overlaps, files that can't be read.
 
+#include <nlohmann/json.hpp>
+
 #include "run_program.hpp"
 
 namespace tinsmith::test {
@@ -17,6 +19,13 @@ TEST_F(CliInputs, AListStandsForItsFilesInEveryVerb) {
   EXPECT_EQ(text_of(path("list.ply")), text_of(path("named.ply")));
   EXPECT_EQ(run({"verify", list, path("list.ply"), "--max-error", "1"}).exit_code, 0);
   expect_unusable("@" + path("none.txt"), {"none.txt", "list of inputs", "check the path"});
+  const Outcome info = run({"info", list});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  for (const char* part : {"list of 2 inputs", "40 x 20 samples", "800 samples, 100 %"})
+    EXPECT_NE(info.out.find(part), std::string::npos) << part << " in: " << info.out;
+  for (const char* verb : {"compress", "verify"})
+    expect_complaint({verb, list, path("list.ply"), "--max-error", "1", "--json", east}, 2,
+                     {"east.tif", "is an input too"});
 }
 
 TEST_F(CliInputs, TheOverlapThatCountsIsChosenAndADisagreementIsTold) {
@@ -26,6 +35,8 @@ TEST_F(CliInputs, TheOverlapThatCountsIsChosenAndADisagreementIsTold) {
   ASSERT_EQ(first.exit_code, 0) << first.err;
   EXPECT_NE(first.err.find("a.tif and"), std::string::npos) << first.err;
   EXPECT_NE(first.err.find("200 of 200 samples"), std::string::npos) << first.err;
+  const Outcome told = run({"compress", a, b, path("first.ply"), "--max-error", "1", "--quiet", "--json", "-"});
+  EXPECT_EQ(nlohmann::json::parse(told.out)["remarks"].size(), 1U) << told.out;
   ASSERT_EQ(run({"compress", b, a, path("swapped.ply"), "--max-error", "1", "--overlap", "last"}).exit_code, 0);
   EXPECT_EQ(text_of(path("first.ply")), text_of(path("swapped.ply")));
   expect_complaint({"compress", a, b, path("no.ply"), "--max-error", "1", "--overlap", "best"}, 2,

@@ -15,6 +15,8 @@
 #include "input_flags.hpp"
 #include "inputs.hpp"
 #include "io/mesh_file.hpp"
+#include "io/raster_list.hpp"
+#include "plan_summary.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 #include "text.hpp"
@@ -47,13 +49,17 @@ options:
   --window T           samples along a window's side (default {}); may change the result a little
   --threads N          0: as many as the machine has (default 0); never changes the result
   --memory SIZE        what the whole program may take, as 512M, 1.5G or bytes (default: a quarter of the machine's);
-                       finished windows beyond it go to the disk; never changes the result
+                       finished windows beyond it are on the disk only; never changes the result
   --tmp DIR            folder for unfinished work (default: a hidden folder beside OUTPUT, removed at the end)
   --fresh              throw away the unfinished work of an earlier run on the same OUTPUT with other options
+  --plan               do none of it, but say what it will take: windows, memory, scratch space, triangles, bytes and
+                       time, estimated from up to nine windows that are compressed for that; fails with exit code 5
+                       when it can't fit
 )" TINSMITH_INPUT_MANUAL
                                 R"(  --no-verify          don't measure the written file
   --json FILE          the report as one JSON object; - prints it to standard output and nothing else
-  --quiet              no progress bar, no remarks
+)" TINSMITH_PROGRESS_MANUAL
+                                R"(  --quiet              no progress bar, no remarks
   --verbose            each round's triangles and seconds, and the whole certificate
 
 A run that was stopped (killed, disk full, interrupted) goes on with the same command, and gives the same bytes.
@@ -64,6 +70,7 @@ the report are metres, whatever the raster's units. The bytes written depend on 
 examples:
   tinsmith compress dem.tif dem.ply --max-error 5
   tinsmith compress north.tif south.tif both.glb --ratio 0.01
+  tinsmith compress @tiles.txt country.ply --max-error 1 --memory 2G --tmp /scratch --plan
   tinsmith compress dem.vrt dem.2dm --max-error 0.5 --bbox 380000 5090000 390000 5100000 --json report.json
 
 exit codes: 0 done; 1 the certificate does not hold, or there is no such result; 2 wrong usage; 3 an input can't be
@@ -83,9 +90,11 @@ struct Flags {
   std::string memory;
   std::string tmp;
   bool fresh = false;
+  bool plan = false;
   InputFlags input;
   bool no_verify = false;
   std::string json;
+  std::string progress = "bar";
   bool quiet = false;
   bool verbose = false;
 };
@@ -150,21 +159,40 @@ void add_compression(Json& report, const CompressReport& compressed, const std::
   report["remarks"] = compressed.remarks;
 }
 
+// What was said of the inputs before the work, and was not said again after it.
+void add_remarks(Json& report, const std::vector<std::string>& remarks) {
+  Json& known = report["remarks"];
+  for (const std::string& remark : remarks)
+    if (std::find(known.begin(), known.end(), remark) == known.end()) known.push_back(remark);
+}
+
+int plan_run(const Flags& flags, const std::string& output, const InputOptions& input_options,
+             CompressOptions& options) {
+  const CompressPlan planned = plan(flags.files, output, input_options, options);
+  options.progress = {};  // ends the line of the bar
+  if (!flags.json.empty()) write_json(plan_report(planned, flags.files, output), flags.json);
+  if (flags.json != "-") print_plan(planned, output, !flags.max_error);
+  return 0;
+}
+
 int compress_rasters(Flags flags) {
   const std::string output = flags.files.back();
   flags.files.pop_back();
   const InputOptions input_options = to_input_options(flags.input);
   CompressOptions options = to_options(flags);
+  const ProgressForm progress = choose_progress(flags.progress, flags.quiet);
   require_rasters(flags.files, "tinsmith compress INPUT... OUTPUT");
-  require_usable_outputs(flags.files, output, flags.json);
+  require_usable_outputs(expand_lists(flags.files), output, flags.json);
   const OpenedInputs inputs = open_inputs(flags.files, input_options);
   print_remarks(inputs.remarks, flags.quiet);
-  options.progress = make_progress(flags.quiet, inputs.n_samples);
+  options.progress = make_progress(progress, inputs.n_samples);
+  if (flags.plan) return plan_run(flags, output, input_options, options);
   const CompressReport compressed = compress(flags.files, output, input_options, options);
   Json report = empty_report(flags.files, output);
   report["threads"] = threads_used(flags.threads);
   report["seconds"] = resources_so_far().seconds;
   add_compression(report, compressed, output);
+  add_remarks(report, inputs.remarks);
   if (!flags.no_verify) {
     add_certificate(
         report,
@@ -196,9 +224,11 @@ void add_compress(CLI::App& program, Run& run) {
   verb.add_option("--memory", flags->memory);
   verb.add_option("--tmp", flags->tmp);
   verb.add_flag("--fresh", flags->fresh);
+  verb.add_flag("--plan", flags->plan);
   add_input_flags(verb, flags->input);
   verb.add_flag("--no-verify", flags->no_verify);
   verb.add_option("--json", flags->json);
+  verb.add_option("--progress", flags->progress);
   verb.add_flag("--quiet", flags->quiet);
   verb.add_flag("--verbose", flags->verbose);
   verb.callback([flags, &run] { run = [flags] { return compress_rasters(*flags); }; });

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "input_flags.hpp"
+#include "io/raster_list.hpp"
 #include "report.hpp"
 #include "text.hpp"
 #include "tinsmith/describe.hpp"
@@ -28,6 +29,7 @@ options:
 
 examples:
   tinsmith info dem.tif
+  tinsmith info @tiles.txt
   tinsmith info dem.glb --json
 
 exit codes: 0 done; 2 wrong usage; 3 the file can't be used; 4 the JSON can't be written; 5 out of memory
@@ -41,7 +43,7 @@ struct Flags {
 
 int say_what_is_in(const Flags& flags) {
   const InputOptions options = to_input_options(flags.input);
-  if (!flags.json.empty() && flags.json != "-") require_other_than_inputs(flags.json, {flags.file});
+  if (!flags.json.empty() && flags.json != "-") require_other_than_inputs(flags.json, expand_lists({flags.file}));
   const auto entries = describe(flags.file, options);
   if (!flags.json.empty()) {
     Json object;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -11,11 +12,28 @@
 #include "tinsmith/error.hpp"
 
 namespace tinsmith::cli {
+namespace {
+
+std::uint64_t samples_of(const RasterField& field) {
+  constexpr std::int32_t kSide = 1024;
+  std::uint64_t n_samples = 0;
+  for (std::int64_t y = 0; y < field.height(); y += kSide) {
+    for (std::int64_t x = 0; x < field.width(); x += kSide) {
+      const auto width = static_cast<std::int32_t>(std::min<std::int64_t>(kSide, field.width() - x));
+      const auto height = static_cast<std::int32_t>(std::min<std::int64_t>(kSide, field.height() - y));
+      const GridRect rect{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), width, height};
+      if (!field.is_surely_void(rect)) n_samples += static_cast<std::uint64_t>(rect.area());
+    }
+  }
+  return n_samples;
+}
+
+}  // namespace
 
 OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options) {
   const RasterField field(paths, options);
   OpenedInputs opened;
-  opened.n_samples = static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height());
+  opened.n_samples = samples_of(field);
   const std::optional<std::string> overlaps = field.remark_on_overlaps();  // may find damage, which remarks() tells
   opened.remarks = field.remarks();
   if (overlaps) opened.remarks.push_back(*overlaps);

@@ -10,7 +10,7 @@
 namespace tinsmith::cli {
 
 struct OpenedInputs {
-  std::uint64_t n_samples = 0;       // valid or not
+  std::uint64_t n_samples = 0;       // valid or not, but for blocks that surely hold none
   std::vector<std::string> remarks;  // what the user should be told once
 };
 

@@ -10,17 +10,21 @@
 #include <memory>
 #include <string>
 
+#include "base/machine_memory.hpp"
+#include "choose.hpp"
+#include "forecast.hpp"
 #include "interrupt.hpp"
+#include "report.hpp"
 #include "text.hpp"
 
 namespace tinsmith::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = Forecast::Clock;
 
-constexpr int kRoomForWords = 105;  // columns of a terminal
+constexpr int kRoomForWords = 115;  // columns of a terminal
 constexpr double kSecondsBetweenDraws = 0.1;
-constexpr double kSecondsBeforeForecast = 1;  // the first moments say little about the rest
+constexpr double kSecondsBetweenLines = 0.5;  // of JSON
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -51,36 +55,35 @@ std::string rate(double samples_per_second, bool is_short) {
 // One line for each stage, drawn over until the stage is done.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::uint64_t n_samples) : n_samples_(n_samples) {}
+  explicit ProgressBar(std::uint64_t n_samples) : forecast_(n_samples) {}
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   ~ProgressBar() { end_line(); }
 
   void show(double fraction, std::string_view stage) {
     const auto now = Clock::now();
+    const Moment moment = forecast_.at(now, fraction, stage);
     if (stage != stage_) {
       end_line();
       stage_ = stage;
-      started_ = now;
-      started_at_ = fraction;
     } else if (fraction < 1 && seconds_between(drawn_, now) < kSecondsBetweenDraws) {
       return;
     }
     drawn_ = now;
-    draw(fraction, seconds_between(started_, now));
+    draw(moment);
   }
 
  private:
-  void draw(double fraction, double seconds) {
+  void draw(const Moment& moment) {
     const int width = terminal_width() - 1;
-    const double done = fraction - started_at_;
-    std::string line = fmt::format("{:<8} {}", stage_, ruler(fraction));
-    if (n_samples_ > 0 && done > 0 && seconds > 0)
-      line += "  " + rate(done * static_cast<double>(n_samples_) / seconds, width < kRoomForWords);
-    if (fraction >= 1)
-      line += ", " + duration(seconds);
-    else if (done > 0 && seconds > kSecondsBeforeForecast)
-      line += ", " + duration(seconds * (1 - fraction) / done) + (width < kRoomForWords ? "" : " left");
+    const bool is_short = width < kRoomForWords;
+    std::string line = fmt::format("{:<8} {}", stage_, ruler(moment.fraction));
+    if (moment.samples_per_second > 0) line += "  " + rate(moment.samples_per_second, is_short);
+    if (moment.fraction >= 1)
+      line += ", " + duration(moment.stage_seconds);
+    else if (moment.seconds_left)
+      line += ", " + duration(*moment.seconds_left) + (is_short ? "" : " left");
+    line += ", " + byte_size(resident_memory());
     // Spaces wipe out what a longer line left behind; a line too long for the terminal would not be drawn over.
     std::fprintf(stderr, "\r%-*.*s", width, width, line.c_str());
     std::fflush(stderr);
@@ -91,22 +94,72 @@ class ProgressBar {
     stage_.clear();
   }
 
-  std::uint64_t n_samples_;
+  Forecast forecast_;
   std::string stage_;
-  Clock::time_point started_;
-  double started_at_ = 0;  // the fraction that earlier stages had done
   Clock::time_point drawn_;
 };
 
-}  // namespace
+// JSON for schedulers. What came too soon after the last line is kept: the last word is always said.
+class ProgressLines {
+ public:
+  explicit ProgressLines(std::uint64_t n_samples) : forecast_(n_samples) {}
+  ProgressLines(const ProgressLines&) = delete;
+  ProgressLines& operator=(const ProgressLines&) = delete;
+  ~ProgressLines() {
+    if (is_kept_) print();
+  }
 
-Progress make_progress(bool quiet, std::uint64_t n_samples) {
-  if (quiet || isatty(STDERR_FILENO) == 0) return [](double, std::string_view) { return !is_interrupted(); };
-  auto bar = std::make_shared<ProgressBar>(n_samples);
-  return [bar](double fraction, std::string_view stage) {
-    bar->show(fraction, stage);
+  void show(double fraction, std::string_view stage) {
+    const auto now = Clock::now();
+    latest_ = forecast_.at(now, fraction, stage);
+    is_kept_ = true;
+    if (seconds_between(printed_, now) < kSecondsBetweenLines) return;
+    printed_ = now;
+    print();
+  }
+
+ private:
+  void print() {
+    Json line;
+    line["stage"] = latest_.stage;
+    line["fraction"] = latest_.fraction;
+    line["samples_per_second"] = latest_.samples_per_second;
+    line["seconds_left"] = latest_.seconds_left ? Json(*latest_.seconds_left) : Json();
+    line["memory_bytes"] = resident_memory();
+    line["elapsed_seconds"] = resources_so_far().seconds;
+    std::fprintf(stderr, "%s\n", line.dump().c_str());
+    std::fflush(stderr);
+    is_kept_ = false;
+  }
+
+  Forecast forecast_;
+  Moment latest_;
+  bool is_kept_ = false;
+  Clock::time_point printed_;
+};
+
+template <class Shown>
+Progress shown_by(std::uint64_t n_samples) {
+  auto shown = std::make_shared<Shown>(n_samples);
+  return [shown](double fraction, std::string_view stage) {
+    shown->show(fraction, stage);
     return !is_interrupted();
   };
+}
+
+}  // namespace
+
+ProgressForm choose_progress(const std::string& name, bool quiet) {
+  const auto form = choose<ProgressForm>(
+      "--progress", name,
+      {{"bar", ProgressForm::kBar}, {"json", ProgressForm::kJson}, {"none", ProgressForm::kNone}});
+  return form == ProgressForm::kBar && (quiet || isatty(STDERR_FILENO) == 0) ? ProgressForm::kNone : form;
+}
+
+Progress make_progress(ProgressForm form, std::uint64_t n_samples) {
+  if (form == ProgressForm::kBar) return shown_by<ProgressBar>(n_samples);
+  if (form == ProgressForm::kJson) return shown_by<ProgressLines>(n_samples);
+  return [](double, std::string_view) { return !is_interrupted(); };
 }
 
 }  // namespace tinsmith::cli

@@ -10,6 +10,7 @@
 
 #include "input_flags.hpp"
 #include "io/mesh_file.hpp"
+#include "io/raster_list.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 #include "text.hpp"
@@ -74,7 +75,7 @@ std::vector<Panel> to_panels(const std::vector<std::string>& names) {
 int draw(Flags flags) {
   const std::string png = flags.files.back();
   flags.files.pop_back();
-  require_other_than_inputs(png, flags.files);
+  require_other_than_inputs(png, expand_lists(flags.files));
   std::vector<std::string> rasters;
   std::string mesh;
   for (const std::string& file : flags.files) {
@@ -91,7 +92,7 @@ int draw(Flags flags) {
   options.panel_width = flags.width;
   options.scale = flags.scale;
   options.input = to_input_options(flags.input);
-  options.progress = make_progress(flags.quiet, 0);
+  options.progress = make_progress(choose_progress("bar", flags.quiet), 0);
   render(rasters, mesh, png, options);
   return 0;
 }

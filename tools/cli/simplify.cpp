@@ -251,7 +251,7 @@ int simplify_mesh(const Flags& flags) {
     options.feature_edges = read_edge_list(flags.feature_edges, surface.position.size());
   if (flags.drop_attributes) surface.attributes.clear();
   print_remarks(remarks_on(surface, flags.output), flags.quiet);
-  options.progress = make_progress(flags.quiet, 0);
+  options.progress = make_progress(choose_progress("bar", flags.quiet), 0);
   SimplifySurfaceReport simplified;
   const double start = resources_so_far().seconds;
   const Surface result = simplified_surface(surface, options, flags, simplified);

@@ -13,6 +13,7 @@
 #include "input_flags.hpp"
 #include "inputs.hpp"
 #include "io/raster_field.hpp"
+#include "io/raster_list.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 #include "text.hpp"
@@ -37,7 +38,8 @@ options:
   --threads N          threads to use; default: all of the machine; the certificate does not depend on it
   --memory SIZE        what the program may use, such as 512M, 1G or 2GiB; default: a quarter of what there is
   --tmp DIR            folder of scratch files, for what does not fit; default: the folder of the mesh
-  --quiet              no progress bar
+)" TINSMITH_PROGRESS_MANUAL
+    R"(  --quiet              no progress bar, no remarks
 
 keys:
   samples              valid samples: cells of the raster, at their centres
@@ -60,8 +62,8 @@ examples:
   tinsmith verify north.tif south.tif both.glb --json report.json
 
 exit codes: 0 it holds; 1 it does not, standard error says what; 2 wrong usage; 3 an input can't be used;
-4 the report or a scratch
-file can't be written; 5 out of memory or of room for scratch files; 130 interrupted
+4 the report or a
+scratch file can't be written; 5 out of memory or of room for scratch files; 130 interrupted
 )";
 
 struct Flags {
@@ -72,6 +74,7 @@ struct Flags {
   std::string memory;
   std::string tmp;
   std::string json;
+  std::string progress = "bar";
   bool quiet = false;
 };
 
@@ -94,15 +97,16 @@ int verify_mesh(Flags flags) {
   if (flags.max_error) require_tolerance("--max-error", *flags.max_error);
   const InputOptions options = to_input_options(flags.input);
   VerifyOptions verify_options = to_options(flags);
+  const ProgressForm progress = choose_progress(flags.progress, flags.quiet);
   if (!flags.json.empty() && flags.json != "-") {
-    require_other_than_inputs(flags.json, flags.files);
+    require_other_than_inputs(flags.json, expand_lists(flags.files));
     require_other_than_inputs(flags.json, {mesh});
     require_writable(flags.json);
   }
   if (verify_options.memory > 0) set_raster_cache(verify_options.memory / 8);
   const OpenedInputs inputs = open_inputs(flags.files, options);
   print_remarks(inputs.remarks, flags.quiet);
-  verify_options.progress = make_progress(flags.quiet, inputs.n_samples);
+  verify_options.progress = make_progress(progress, inputs.n_samples);
   const Certificate certificate = verify(flags.files, mesh, options, verify_options);
   verify_options.progress = {};  // ends the line of the bar
   Json report = empty_report(flags.files, mesh);
@@ -112,6 +116,7 @@ int verify_mesh(Flags flags) {
   report["seconds"] = used.seconds;
   report["peak_memory_bytes"] = used.peak_memory_bytes;
   report["threads"] = verify_options.threads;
+  report["remarks"] = inputs.remarks;
   if (!flags.json.empty()) write_json(report, flags.json);
   if (flags.json != "-") {
     print_table(report);
@@ -133,6 +138,7 @@ void add_verify(CLI::App& program, Run& run) {
   verb.add_option("--memory", flags->memory);
   verb.add_option("--tmp", flags->tmp);
   verb.add_option("--json", flags->json);
+  verb.add_option("--progress", flags->progress);
   verb.add_flag("--quiet", flags->quiet);
   verb.callback([flags, &run] { run = [flags] { return verify_mesh(*flags); }; });
 }

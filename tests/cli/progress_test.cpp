@@ -1,0 +1,110 @@
+// What a scheduler is told of a run, and the plan of one.
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run_program.hpp"
+
+namespace tinsmith::test {
+namespace {
+
+using nlohmann::json;
+
+using CliProgress = CliTest;
+
+std::vector<json> lines_of(const std::string& text) {
+  std::vector<json> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
+  return lines;
+}
+
+// Each line is an object with every key; no stage falls, and the last one is whole.
+void expect_progress(const std::vector<json>& lines, const std::string& last_stage) {
+  ASSERT_GE(lines.size(), 2U);
+  double told = 0;
+  double elapsed = 0;
+  std::string stage;
+  for (const json& line : lines) {
+    if (line.at("stage") != stage) told = 0;
+    stage = line["stage"];
+    EXPECT_GE(line.at("fraction").get<double>(), told);
+    told = line["fraction"];
+    EXPECT_LE(told, 1);
+    EXPECT_GE(line.at("samples_per_second").get<double>(), 0);
+    EXPECT_TRUE(line.at("seconds_left").is_null() || line["seconds_left"].get<double>() >= 0);
+    EXPECT_GT(line.at("memory_bytes").get<double>(), 1e6);
+    EXPECT_GE(line.at("elapsed_seconds").get<double>(), elapsed);
+    elapsed = line["elapsed_seconds"];
+  }
+  EXPECT_EQ(stage, last_stage);
+  EXPECT_EQ(told, 1);
+  EXPECT_LE(static_cast<double>(lines.size()), 2 * elapsed + 2) << "twice a second at most";
+}
+
+TEST_F(CliProgress, JsonLinesNeverFallAndEndWithOne) {
+  const std::string dem = std::string(TINSMITH_SOURCE_DIR) + "/data/matterhorn.tif";
+  const Outcome compressed =
+      run({"compress", dem, path("dem.ply"), "--max-error", "50", "--window", "64", "--progress", "json"});
+  ASSERT_EQ(compressed.exit_code, 0) << compressed.err;
+  expect_progress(lines_of(compressed.err), "verify");
+  const Outcome verified = run({"verify", dem, path("dem.ply"), "--max-error", "50", "--progress", "json"});
+  ASSERT_EQ(verified.exit_code, 0) << verified.err;
+  expect_progress(lines_of(verified.err), "verify");
+}
+
+TEST_F(CliProgress, IsSilentWhenNotAsked) {
+  EXPECT_EQ(run({"compress", hill("dem.tif", 40), path("a.ply"), "--max-error", "5", "--progress", "none"}).err,
+            "");
+  EXPECT_EQ(run({"verify", path("dem.tif"), path("a.ply"), "--progress", "bar"}).err, "") << "no terminal";
+  expect_complaint({"verify", path("dem.tif"), path("a.ply"), "--progress", "dots"}, 2,
+                   {"--progress dots", "bar, json, none"});
+}
+
+TEST_F(CliProgress, AResumedRunBeginsWhereItWas) {
+  const std::string dem = std::string(TINSMITH_SOURCE_DIR) + "/data/matterhorn.tif";
+  const std::vector<std::string> words{"compress",   dem,   path("dem.ply"), "--max-error", "1",
+                                       "--window",   "32",  "--no-verify",   "--threads",   "1",
+                                       "--progress", "json"};
+  const Outcome stopped = run(words, {.file_size = {}, .signal_after_ms = 800});
+  ASSERT_EQ(stopped.exit_code, 130) << "faster than the signal: " << stopped.err;
+  std::vector<json> before;
+  std::istringstream stream(stopped.err);
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with('{')) before.push_back(json::parse(line));
+  const Outcome resumed = run(words);
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  const double reached = before.empty() ? 0 : before.back()["fraction"].get<double>();
+  EXPECT_GE(lines_of(resumed.err).front()["fraction"], reached);
+}
+
+TEST_F(CliProgress, ThePlanSaysWhatTheRunThenTakes) {
+  const std::string dem = std::string(TINSMITH_SOURCE_DIR) + "/data/matterhorn.tif";
+  const Outcome planned = run({"compress", dem, path("dem.ply"), "--max-error", "30", "--plan", "--json", "-"});
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  EXPECT_TRUE(files().empty()) << "nothing was written";
+  const json plan = json::parse(planned.out);
+  const Outcome ran = run({"compress", dem, path("dem.ply"), "--max-error", "30", "--no-verify", "--json", "-"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const json report = json::parse(ran.out);
+  EXPECT_EQ(plan["windows"], report["windows"]);
+  EXPECT_EQ(plan["threads"], report["threads"]);
+  EXPECT_EQ(plan["tried_windows"], 9);
+  EXPECT_NEAR(plan["expected_triangles"].get<double>() / report["triangles"].get<double>(), 1, 0.25);
+  EXPECT_NEAR(plan["expected_bytes"].get<double>() / report["bytes"].get<double>(), 1, 0.25);
+  EXPECT_NEAR(plan["expected_peak_memory_bytes"].get<double>() / report["peak_memory_bytes"].get<double>(), 1, 0.4);
+  EXPECT_GT(plan["expected_seconds"], 0);
+  const Outcome shown = run({"compress", dem, path("dem.ply"), "--max-error", "30", "--plan"});
+  for (const char* part :
+       {"estimated from 9 windows", "triangles", "scratch", "peak memory", "nothing was written"})
+    EXPECT_NE(shown.out.find(part), std::string::npos) << part;
+}
+
+TEST_F(CliProgress, ThePlanRefusesWhatCannotFit) {
+  const std::string dem = hill("dem.tif", 300);
+  expect_complaint({"compress", dem, path("dem.ply"), "--max-error", "1", "--plan", "--memory", "64M"}, 5,
+                   {"64M", "--memory"});
+}
+
+}  // namespace
+}  // namespace tinsmith::test
