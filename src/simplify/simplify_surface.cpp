@@ -10,6 +10,7 @@
 #include "geometry/half_space_test.hpp"
 #include "simplify/simplified_mesh.hpp"
 #include "simplify/surface_attributes.hpp"
+#include "simplify/surface_fit.hpp"
 #include "simplify/surface_mesh.hpp"
 #include "simplify/surface_wedges.hpp"
 #include "tinsmith/error.hpp"
@@ -70,6 +71,7 @@ class SurfaceSimplifier {
         n_triangles_(mesh.origin.size() / 3) {}
 
   void run(double target) {
+    if (options_.fit && options_.placement == Placement::kOptimal) samples_ = fit_samples(mesh_, values_, options_);
     sum_quadrics();
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
       if (h > mesh_.twin[at(h)]) push(h);
@@ -84,6 +86,8 @@ class SurfaceSimplifier {
       if (++n_steps % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target));
     }
     tell(1);
+    geometry_ = {};  // fit needs as much
+    if (report_.collapses > 0 && !samples_.vertex.empty()) fit(mesh_, values_, samples_);
   }
 
  private:
@@ -336,6 +340,7 @@ class SurfaceSimplifier {
     collapse_edge(mesh_, h, kept);
     mesh_.position[at(kept)] = collapse.position;
     geometry_[at(kept)] += geometry_[at(gone)];
+    if (!samples_.vertex.empty()) samples_.vertex[at(gone)] = kept;
     update_around(kept);
   }
 
@@ -412,6 +417,7 @@ class SurfaceSimplifier {
   std::vector<std::uint32_t> mark_;
   std::uint32_t mark_now_ = 0;
   std::size_t n_triangles_;
+  FitSamples samples_;  // empty: no fit
   std::priority_queue<Entry> queue_;
   std::vector<LinkSide> star_;
   std::vector<std::int32_t> neighbours_;

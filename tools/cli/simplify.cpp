@@ -49,6 +49,8 @@ options:
   --no-area-weights      all triangles count the same; otherwise by their area and twice the mean area, so that thin
                          parts made of small triangles stay
   --no-half-space        let triangles turn over (faster, and wrong; to see what the test prevents)
+  --no-fit               leave out the last step of optimal placement, which moves the vertices that are left, and
+                         their values, to where they fit the input's vertices best
   --quadric Q            how shape and values at the vertices make up the cost: separate (a quadric each, as in the
                          paper), combined (one in all dimensions) or gradient (values as linear functions of the
                          place) (default {})
@@ -100,6 +102,7 @@ struct Flags {
   std::optional<double> attribute_weight;
   bool no_area_weights = false;
   bool no_half_space = false;
+  bool no_fit = false;
   bool no_seams = false;
   std::string feature_edges;
   bool drop_attributes = false;
@@ -139,6 +142,7 @@ SimplifySurfaceOptions to_options(const Flags& flags) {
   options.quadric = choose("--quadric", flags.quadric, quadrics());
   options.area_weights = !flags.no_area_weights;
   options.half_space = !flags.no_half_space;
+  options.fit = !flags.no_fit;
   options.keep_seams = !flags.no_seams && !flags.drop_attributes;  // without values, nothing differs along a seam
   if (flags.attribute_weight) options.attribute_weight = *flags.attribute_weight;
   return options;
@@ -279,6 +283,7 @@ void add_simplify(CLI::App& program, Run& run) {
   verb.add_option("--placement", flags->placement);
   verb.add_flag("--no-area-weights", flags->no_area_weights);
   verb.add_flag("--no-half-space", flags->no_half_space);
+  verb.add_flag("--no-fit", flags->no_fit);
   verb.add_option("--quadric", flags->quadric);
   verb.add_option("--progressive", flags->progressive);
   verb.add_option("--attribute-weight", flags->attribute_weight);
