@@ -5,6 +5,7 @@ Started by run.sh, which builds what is needed and fetches the meshes.
 """
 
 import argparse
+import hashlib
 import json
 import os
 import pathlib
@@ -31,6 +32,8 @@ TOOLS = {
     "vtk-pro": "/usr/bin/python3 -B {here}/vtk_surface.py pro {mesh} {n} {out}",
     "meshopt": "{build}/peers/meshopt_surface {mesh} {n} {out}",
 }
+PACKAGES = {"cgal-gh": "libcgal-dev", "cgal-lt": "libcgal-dev", "vtk-quadric": "python3-vtk9",
+            "vtk-pro": "python3-vtk9", "meshopt": "libmeshoptimizer-dev"}
 LIMIT = 600  # seconds for one run
 # Runs are started by a Python of their own: the kernel's peak memory of a process is never below its starter's.
 STARTER = "import json, sys, measure; print(json.dumps(measure.run(sys.argv[2:], float(sys.argv[1]))))"
@@ -49,6 +52,7 @@ def arguments():
     parser.add_argument("--option", default="", help="more options for tinsmith simplify, in one word")
     parser.add_argument("--colours", action="store_true", help="also the forms of quadrics on a coloured bunny")
     parser.add_argument("--repeat", type=int, default=1, help="runs of each, of which the fastest counts")
+    parser.add_argument("--again", action="store_true", help="measure anew what BUILD/surface/runs.json has already")
     parser.add_argument("--out", type=pathlib.Path, help="the table as Markdown (default: BUILD/surface/RESULTS.md)")
     options = parser.parse_args()
     # The machine's paths say nothing to the reader of the table.
@@ -93,6 +97,26 @@ def run(tool, options, mesh, n_triangles):
             "hausdorff": hausdorff / mesh["diagonal"], "rms": rms / mesh["diagonal"]}
 
 
+def identity(tool, options):
+    """Of the program that is measured."""
+    if tool != "tinsmith":
+        return version_of(PACKAGES[tool])
+    return hashlib.sha256((options.build / "tinsmith").read_bytes()).hexdigest() + options.option
+
+
+def remembered(tool, options, mesh, n_triangles):
+    """The run's result, kept in a file: a table takes an hour, and goes on after an end where it was."""
+    path = options.build / "surface" / "runs.json"
+    known = json.loads(path.read_text()) if path.exists() else {}
+    key = " ".join([tool, identity(tool, options), mesh["name"], str(n_triangles)])
+    if options.again or key not in known:
+        known[key] = run(tool, options, mesh, n_triangles)
+        unfinished = path.with_suffix(".new")
+        unfinished.write_text(json.dumps(known, indent=1))
+        unfinished.rename(path)
+    return known[key]
+
+
 def load(name, folder):
     path = meshes.prepare(name, folder) if name in meshes.MESHES else pathlib.Path(name)
     surface = plain_ply.read(path)
@@ -117,7 +141,7 @@ def table(options, mesh):
            f"{facts['components']} parts, {facts['turned_edges']} turned edges\n\n{HEADER}")
     for share in options.share or [50, 20, 5, 1]:
         for tool in options.tool or TOOLS:
-            yield row(share, tool, run(tool, options, mesh, round(n_input * share / 100)), n_input)
+            yield row(share, tool, remembered(tool, options, mesh, round(n_input * share / 100)), n_input)
 
 
 def version_of(package):
@@ -127,8 +151,8 @@ def version_of(package):
 def preface(options):
     m = tools.machine()
     option = f" with `{options.option}`" if options.option else ""
-    peers = ", ".join(f"{name} {version_of(package)}" for name, package in
-                      (("CGAL", "libcgal-dev"), ("VTK", "python3-vtk9"), ("meshoptimizer", "libmeshoptimizer-dev")))
+    peers = ", ".join(f"{name} {version_of(PACKAGES[tool])}" for name, tool in
+                      (("CGAL", "cgal-gh"), ("VTK", "vtk-quadric"), ("meshoptimizer", "meshopt")))
     command = " ".join(["tools/bench/surface/run.sh", *map(shlex.quote, options.command)])
     return (f"Made by `{command}`.\n\ntinsmith{option} and {peers}, on {m['processor']}, one thread each. Distances are symmetric, between "
             f"{judge.N_SAMPLES} samples (for the largest one also the vertices) and the other surface, as thousandths "
