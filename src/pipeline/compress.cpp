@@ -14,6 +14,7 @@
 #include "io/raster_field.hpp"
 #include "pipeline/compress_options.hpp"
 #include "pipeline/memory_plan.hpp"
+#include "pipeline/plan.hpp"
 #include "pipeline/rounds.hpp"
 #include "pipeline/run_folder.hpp"
 #include "pipeline/search.hpp"
@@ -164,6 +165,7 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
   const RasterField field(inputs, input_options);
   const MemoryPlan memory = plan_memory(field, options.window, thread_count(options), options.memory);
   set_raster_cache(memory.raster_cache);
+  if (options.max_error) require_format_may_hold(field, output, options);
   const Target target{field, field.frame(), output, memory.chunks};
   RunFolder folder(output, options.tmp, identity_of(inputs, input_options, options, target), options.fresh);
   CompressReport report;

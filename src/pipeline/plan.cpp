@@ -1,4 +1,4 @@
-#include "tinsmith/plan.hpp"
+#include "pipeline/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 #include "pipeline/search.hpp"
 #include "pipeline/trial.hpp"
 #include "tinsmith/error.hpp"
+#include "tinsmith/plan.hpp"
 
 namespace tinsmith {
 
@@ -43,6 +44,12 @@ struct Outset {
   WindowGraph graph;
   std::vector<std::int64_t> windows;  // that may hold samples
 };
+
+Outset outset_of(const RasterField& field, const CompressOptions& options) {
+  Outset outset{field, options, WindowGraph(field.width(), field.height(), options.window), {}};
+  outset.windows = windows_with_samples(field, outset.graph);
+  return outset;
+}
 
 std::vector<GridRect> to_try(const Outset& outset) {
   std::vector<GridRect> rects;
@@ -145,12 +152,25 @@ void require_room(const std::string& folder, std::uint64_t free, std::uint64_t e
                                   megabytes(expected), what, megabytes(free), remedy));
 }
 
+void require_format_holds_half(const std::string& output, const CompressPlan& plan) {
+  require_format_holds(output, plan.expected_triangles / 4, plan.expected_triangles / 2);
+}
+
+bool holds(const std::string& output, std::uint64_t n_triangles) {
+  try {
+    require_format_holds(output, n_triangles / 2, n_triangles);
+    return true;
+  } catch (const ResourceError&) {
+    return false;
+  }
+}
+
 // Certain is what half of the estimate is too much for.
 void require_fit(const CompressPlan& plan, const std::string& output) {
   require_room(plan.scratch_folder, plan.free_scratch, plan.expected_scratch, "unfinished work",
                "or choose another folder with --tmp");
   require_room(plan.output_folder, plan.free_output, plan.expected_output, "output", "or write elsewhere");
-  require_format_holds(output, plan.expected_triangles / 4, plan.expected_triangles / 2);
+  require_format_holds_half(output, plan);
 }
 
 CompressPlan plan_of(const Outset& outset, const MemoryPlan& memory) {
@@ -173,6 +193,16 @@ CompressPlan plan_of(const Outset& outset, const MemoryPlan& memory) {
 
 }  // namespace
 
+void require_format_may_hold(const RasterField& field, const std::string& output, const CompressOptions& options) {
+  const auto n_samples = static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height());
+  if (holds(output, 2 * n_samples)) return;
+  const Outset outset = outset_of(field, options);
+  CompressPlan plan;
+  plan.threads = 1;
+  try_out(outset, plan);
+  require_format_holds_half(output, plan);
+}
+
 CompressPlan plan(const std::vector<std::string>& inputs, const std::string& output,
                   const InputOptions& input_options, const CompressOptions& options) {
   require_sensible(options);
@@ -180,8 +210,7 @@ CompressPlan plan(const std::vector<std::string>& inputs, const std::string& out
   const RasterField field(inputs, input_options);
   const MemoryPlan memory = plan_memory(field, options.window, thread_count(options), options.memory);
   set_raster_cache(memory.raster_cache);
-  Outset outset{field, options, WindowGraph(field.width(), field.height(), options.window), {}};
-  outset.windows = windows_with_samples(field, outset.graph);
+  const Outset outset = outset_of(field, options);
   CompressPlan plan = plan_of(outset, memory);
   const Trial trial = try_out(outset, plan);
   plan.tried_windows = trial.n_windows;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <limits>
 
 #include "pipeline/workload.hpp"
 #include "tinsmith/error.hpp"
@@ -19,26 +19,55 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Area in cells of the triangles that no seam has a part in, and their number.
-struct Inside {
-  double area = 0;
-  double triangles = 0;
+struct Box {
+  double left = std::numeric_limits<double>::infinity();
+  double right = -left;
+  double top = left;
+  double bottom = -left;
+
+  void add(LatticePoint p) {
+    left = std::min(left, static_cast<double>(p.x) / kLatticePerCell);
+    right = std::max(right, static_cast<double>(p.x) / kLatticePerCell);
+    top = std::min(top, static_cast<double>(p.y) / kLatticePerCell);
+    bottom = std::max(bottom, static_cast<double>(p.y) / kLatticePerCell);
+  }
+  double width() const { return right - left; }
+  double height() const { return bottom - top; }
 };
 
-Inside inside_of(const Chunk& chunk) {
-  constexpr double kTwiceAreaPerCell = 2.0 * kLatticePerCell * kLatticePerCell;
-  Inside inside;
-  for (const auto& [a, b, c] : chunk.triangles) {
-    if (!chunk.is_settled[at(a)] || !chunk.is_settled[at(b)] || !chunk.is_settled[at(c)]) continue;
-    const LatticePoint p = chunk.position[at(a)];
-    const LatticePoint q = chunk.position[at(b)];
-    const LatticePoint r = chunk.position[at(c)];
-    const double twice = static_cast<double>(q.x - p.x) * static_cast<double>(r.y - p.y) -
-                         static_cast<double>(q.y - p.y) * static_cast<double>(r.x - p.x);
-    inside.area += std::abs(twice) / kTwiceAreaPerCell;
-    inside.triangles += 1;
-  }
+Box box_of(const Chunk& chunk, const std::array<std::int32_t, 3>& triangle) {
+  Box box;
+  for (const std::int32_t v : triangle) box.add(chunk.position[at(v)]);
+  return box;
+}
+
+// Triangles that no seam has a part in.
+std::vector<std::array<std::int32_t, 3>> inside_of(const Chunk& chunk) {
+  std::vector<std::array<std::int32_t, 3>> inside;
+  for (const auto& triangle : chunk.triangles)
+    if (std::all_of(triangle.begin(), triangle.end(), [&](std::int32_t v) { return chunk.is_settled[at(v)]; }))
+      inside.push_back(triangle);
   return inside;
+}
+
+// How many triangles there were without seams. A triangle with a box of w x h is found inside a box of W x H,
+// wherever seams happen to be, in (W - w) (H - h) places: each stands for as many as that is rarer than its window.
+double triangles_without_seams(const Chunk& chunk, const GridRect& window) {
+  constexpr std::size_t kFewest = 10;
+  constexpr double kRarest = 1.0 / 8;  // along each side
+  const double all = static_cast<double>(chunk.triangles.size());
+  const auto inside = inside_of(chunk);
+  if (inside.size() < kFewest) return all;
+  Box room;
+  for (const auto& triangle : inside)
+    for (const std::int32_t v : triangle) room.add(chunk.position[at(v)]);
+  double triangles = 0;
+  for (const auto& triangle : inside) {
+    const Box box = box_of(chunk, triangle);
+    triangles += (window.width - 1) / std::max(room.width() - box.width(), kRarest * window.width) *
+                 (window.height - 1) / std::max(room.height() - box.height(), kRarest * window.height);
+  }
+  return std::min(triangles, all);
 }
 
 }  // namespace
@@ -70,13 +99,10 @@ std::vector<std::int64_t> spread_out(std::vector<std::int64_t> windows, std::int
 Trial try_windows(const HeightField& field, const GridFrame& frame, const std::vector<GridRect>& windows,
                   const RoundsOptions& options, const Progress& progress) {
   Trial trial;
-  Inside inside;
   const auto start = std::chrono::steady_clock::now();
   for (const GridRect& window : windows) {
     const FirstChunk result = first_chunk(field, window, window_options(frame, window, options));
-    const Inside more = inside_of(result.chunk);
-    inside.area += more.area;
-    inside.triangles += more.triangles;
+    trial.triangles += triangles_without_seams(result.chunk, window);
     trial.cells += static_cast<double>(result.valid_cells);
     trial.first_triangles += static_cast<double>(result.chunk.triangles.size());
     trial.most_start_triangles = std::max(trial.most_start_triangles, static_cast<double>(result.start_triangles));
@@ -85,9 +111,6 @@ Trial try_windows(const HeightField& field, const GridFrame& frame, const std::v
       throw Interrupted("interrupted; nothing was written");
   }
   trial.seconds = seconds_since(start) / kRoundShare[0];
-  // Beside seams, which later rounds dissolve, triangles are small; where most of them lie there they all count.
-  const bool is_inside_typical = inside.area > trial.cells / 4;
-  trial.triangles = is_inside_typical ? inside.triangles / inside.area * trial.cells : trial.first_triangles;
   return trial;
 }
 

@@ -1,5 +1,7 @@
 // What a scheduler is told of a run, and the plan of one.
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -104,6 +106,32 @@ TEST_F(CliProgress, ThePlanRefusesWhatCannotFit) {
   const std::string dem = hill("dem.tif", 300);
   expect_complaint({"compress", dem, path("dem.ply"), "--max-error", "1", "--plan", "--memory", "64M"}, 5,
                    {"64M", "--memory"});
+}
+
+// A quarter of a billion samples of noise, none of which can be left out: known from nine windows.
+TEST_F(CliProgress, AFormatThatCannotHoldTheResultIsRefusedAtTheStart) {
+  RasterRecipe noise;
+  noise.width = noise.height = 512;
+  noise.values.clear();
+  for (std::uint32_t i = 0; i < 512 * 512; ++i) noise.values.push_back((i * 2654435761U >> 7) % 1000);
+  const std::string tile = write("noise.tif", noise);
+  std::string vrt =
+      "<VRTDataset rasterXSize='16384' rasterYSize='16384'><SRS>EPSG:32632</SRS>"
+      "<GeoTransform>400000, 30, 0, 5100000, 0, -30</GeoTransform>"
+      "<VRTRasterBand dataType='Int16' band='1'>";
+  for (int i = 0; i < 32 * 32; ++i)
+    vrt += fmt::format(
+        "<SimpleSource><SourceFilename>{}</SourceFilename><SourceBand>1</SourceBand>"
+        "<SrcRect xOff='0' yOff='0' xSize='512' ySize='512'/>"
+        "<DstRect xOff='{}' yOff='{}' xSize='512' ySize='512'/></SimpleSource>",
+        tile, i % 32 * 512, i / 32 * 512);
+  const std::string dem = write_text("noise.vrt", vrt + "</VRTRasterBand></VRTDataset>");
+  for (const std::vector<std::string>& plan : {std::vector<std::string>{}, {"--plan"}}) {
+    std::vector<std::string> words{"compress", dem, path("out.glb"), "--max-error", "0.1"};
+    words.insert(words.end(), plan.begin(), plan.end());
+    expect_complaint(words, 5, {"out.glb", "4 GiB", ".ply"});
+  }
+  EXPECT_EQ(files(), (std::vector<std::string>{"noise.tif", "noise.vrt"}));
 }
 
 }  // namespace
