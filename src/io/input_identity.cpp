@@ -48,6 +48,7 @@ std::uint64_t checksum_of_samples(const HeightField& field) {
 std::vector<std::string> input_identity(const std::vector<std::string>& paths, const InputOptions& options,
                                         const HeightField& field) {
   std::vector<std::string> lines;
+  lines.reserve(paths.size() + 5);
   for (const std::string& path : paths) lines.push_back(file_line(path));
   lines.push_back(fmt::format("band: {}", options.band));
   if (options.nodata) lines.push_back(fmt::format("nodata: {}", *options.nodata));

@@ -153,12 +153,13 @@ void ChunkStore::load() {
 // turns out to be missing makes the tasks before it needed again.
 void ChunkStore::settle_loaded(const std::vector<std::map<std::int64_t, Entry>>& entries) {
   for (int r = graph_.last_round(); r >= 0; --r) {
-    for (const auto& [window, entry] : entries[at(r)]) {
+    for (const auto& window_and_entry : entries[at(r)]) {
+      const Entry& entry = window_and_entry.second;
       const std::uint64_t size = file_size_or_zero(row_file(entry.task));
       const bool is_whole = std::all_of(entry.parts.begin(), entry.parts.end(), [&](const Part& part) {
         return part.offset + part.bytes <= size || is_read(entry.task, part.window);
       });
-      if (is_whole) round(r).is_done[at(window)] = 1;
+      if (is_whole) round(r).is_done[at(entry.task.window)] = 1;
     }
   }
   for (int r = 0; r < graph_.n_rounds(); ++r) {
