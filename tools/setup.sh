@@ -19,6 +19,7 @@ build_packages='
   libfmt-dev              # text of messages
   nlohmann-json3-dev      # reports, GLB headers
   libcli11-dev            # command line
+  libxxhash-dev           # checksums of unfinished work
 '
 test_packages='
   libgtest-dev            # the tests
