@@ -99,20 +99,28 @@ class ProgressBar {
   Clock::time_point drawn_;
 };
 
+std::string json_line(const Moment& moment) {
+  Json line;
+  line["stage"] = moment.stage;
+  line["fraction"] = moment.fraction;
+  line["samples_per_second"] = moment.samples_per_second;
+  line["seconds_left"] = moment.seconds_left ? Json(*moment.seconds_left) : Json();
+  line["memory_bytes"] = resident_memory();
+  line["elapsed_seconds"] = resources_so_far().seconds;
+  return line.dump() + "\n";
+}
+
 // JSON for schedulers. What came too soon after the last line is kept: the last word is always said.
 class ProgressLines {
  public:
   explicit ProgressLines(std::uint64_t n_samples) : forecast_(n_samples) {}
   ProgressLines(const ProgressLines&) = delete;
   ProgressLines& operator=(const ProgressLines&) = delete;
-  ~ProgressLines() {
-    if (is_kept_) print();
-  }
+  ~ProgressLines() { print(); }
 
   void show(double fraction, std::string_view stage) {
     const auto now = Clock::now();
-    latest_ = forecast_.at(now, fraction, stage);
-    is_kept_ = true;
+    kept_ = json_line(forecast_.at(now, fraction, stage));
     if (seconds_between(printed_, now) < kSecondsBetweenLines) return;
     printed_ = now;
     print();
@@ -120,21 +128,13 @@ class ProgressLines {
 
  private:
   void print() {
-    Json line;
-    line["stage"] = latest_.stage;
-    line["fraction"] = latest_.fraction;
-    line["samples_per_second"] = latest_.samples_per_second;
-    line["seconds_left"] = latest_.seconds_left ? Json(*latest_.seconds_left) : Json();
-    line["memory_bytes"] = resident_memory();
-    line["elapsed_seconds"] = resources_so_far().seconds;
-    std::fprintf(stderr, "%s\n", line.dump().c_str());
+    std::fputs(kept_.c_str(), stderr);
     std::fflush(stderr);
-    is_kept_ = false;
+    kept_.clear();
   }
 
   Forecast forecast_;
-  Moment latest_;
-  bool is_kept_ = false;
+  std::string kept_;
   Clock::time_point printed_;
 };
 
