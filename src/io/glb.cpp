@@ -15,14 +15,16 @@
 #include "io/mesh_file.hpp"
 #include "io/mesh_text.hpp"
 #include "io/output_file.hpp"
+#include "io/vertex_colour.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
 namespace {
 
 // Local frame of the node: X = column - origin column, Z = +-(row - origin row), in cells, Y = metres above the
-// origin's height. The sign makes it a right-handed frame with Y up, so that the node never mirrors. World:
-// X = east, Y = up, Z = -north, each the CRS coordinate times metres_per_unit.
+// origin's height. A vertex's colour stands behind its position, padded to four bytes. The sign makes it a
+// right-handed frame with Y up, so that the node never mirrors. World: X = east, Y = up, Z = -north, each the CRS
+// coordinate times metres_per_unit.
 
 using Json = nlohmann::ordered_json;
 using Position = std::array<float, 3>;
@@ -33,7 +35,8 @@ static_assert(std::endian::native == std::endian::little, "glTF is written in th
 constexpr std::uint64_t kMaxJsonBytes = 1 << 24;  // ours have some kilobytes: a CRS and a page of numbers
 constexpr std::uint64_t kJsonRoom = 1 << 16;      // left for it when a mesh is refused by its counts
 constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 48;  // far beyond 4 GiB, and no size of it overflows
-constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125;
+constexpr int kFloat = 5126, kUint8 = 5121, kUint16 = 5123, kUint32 = 5125;
+constexpr std::size_t kColourBytes = 4;  // glTF wants every attribute to begin at a multiple of four
 constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;
 
 // float32 holds sixteenths of a cell exactly up to 2^24 of them; a cell less for the rounding of the origin.
@@ -166,17 +169,33 @@ Json extras(const GridFrame& frame, const LocalFrame& local) {
           {"origin_row", local.row}};
 }
 
+constexpr std::size_t vertex_bytes(int n_channels) {
+  return sizeof(Position) + (n_channels > 0 ? kColourBytes : 0);
+}
+
 /// Sizes of the two halves of the binary chunk. Index 65535 is not a vertex in glTF.
 struct Layout {
-  Layout(std::uint64_t n_vertices, std::uint64_t n_triangles)
+  Layout(std::uint64_t n_vertices, std::uint64_t n_triangles, int n_channels)
       : index_bytes(n_vertices < 65536 ? 2 : 4),
-        positions(n_vertices * sizeof(Position)),
+        vertices(n_vertices * vertex_bytes(n_channels)),
         indices(n_triangles * 3 * index_bytes) {}
-  std::uint64_t binary() const { return padded(positions + indices); }
+  std::uint64_t binary() const { return padded(vertices + indices); }
   std::uint64_t index_bytes;
-  std::uint64_t positions;
+  std::uint64_t vertices;
   std::uint64_t indices;
 };
+
+/// Colours share the vertices' buffer view with the positions: vertices are gone through once.
+void add_colours(Json& json, const TerrainExtent& extent) {
+  json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json["accessors"].size();
+  json["accessors"].push_back({{"bufferView", 0},
+                               {"byteOffset", sizeof(Position)},
+                               {"componentType", kUint8},
+                               {"normalized", true},
+                               {"count", extent.n_vertices},
+                               {"type", n_stored_channels(extent.n_channels) == 4 ? "VEC4" : "VEC3"}});
+  json["bufferViews"][0]["byteStride"] = vertex_bytes(extent.n_channels);
+}
 
 std::string json_text(const Layout& layout, const TerrainExtent& extent, const GridFrame& frame,
                       const LocalFrame& local, const Transform& node) {
@@ -197,9 +216,10 @@ std::string json_text(const Layout& layout, const TerrainExtent& extent, const G
                         {"count", extent.n_triangles * 3},
                         {"type", "SCALAR"}}};
   json["bufferViews"] = {
-      {{"buffer", 0}, {"byteLength", layout.positions}, {"target", kVertexBuffer}},
-      {{"buffer", 0}, {"byteOffset", layout.positions}, {"byteLength", layout.indices}, {"target", kIndexBuffer}}};
-  json["buffers"] = {{{"byteLength", layout.positions + layout.indices}}};
+      {{"buffer", 0}, {"byteLength", layout.vertices}, {"target", kVertexBuffer}},
+      {{"buffer", 0}, {"byteOffset", layout.vertices}, {"byteLength", layout.indices}, {"target", kIndexBuffer}}};
+  json["buffers"] = {{{"byteLength", layout.vertices + layout.indices}}};
+  if (extent.n_channels > 0) add_colours(json, extent);
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.resize(padded(text.size()), ' ');
   return text;
@@ -228,6 +248,7 @@ struct Document {
   std::uint64_t n_vertices = 0;
   std::uint64_t n_indices = 0;
   std::uint64_t index_bytes = 0;
+  int n_stored = 0;  // channels of colour
   Transform node;
   GridFrame frame;
   LocalFrame local;
@@ -247,6 +268,17 @@ void interpret_node(const Json& node, Document& document) {
   document.local.row_sign = document.frame.is_mirrored() ? 1 : -1;
 }
 
+int stored_channels(const Json& json, std::uint64_t n_vertices) {
+  if (!json.at("meshes").at(0).at("primitives").at(0).at("attributes").contains("COLOR_0")) return 0;
+  const Json& colours = json.at("accessors").at(2);
+  const bool is_ours = colours.at("componentType") == kUint8 && colours.at("byteOffset") == sizeof(Position) &&
+                       (colours.at("type") == "VEC3" || colours.at("type") == "VEC4") &&
+                       count(colours.at("count")) == n_vertices &&
+                       json.at("bufferViews").at(0).at("byteStride") == sizeof(Position) + kColourBytes;
+  if (!is_ours) throw std::invalid_argument("the colours are not as tinsmith writes them");
+  return colours.at("type") == "VEC4" ? 4 : 3;
+}
+
 Document interpret(const Json& json) {
   Document document;
   const Json& positions = json.at("accessors").at(0);
@@ -257,6 +289,7 @@ Document interpret(const Json& json) {
   document.n_vertices = count(positions.at("count"));
   document.n_indices = count(indices.at("count"));
   document.index_bytes = indices.at("componentType") == kUint16 ? 2 : 4;
+  document.n_stored = stored_channels(json, document.n_vertices);
   interpret_node(json.at("nodes").at(0), document);
   return document;
 }
@@ -305,9 +338,10 @@ std::array<double, 3> vertex_at(const InputFile& file, const Document& document,
 /// The file stands at the positions.
 void require_size(InputFile& file, const Document& document) {
   const std::uint64_t size = read_chunk_header(file, kBinChunk, "binary");
-  if (size != file.left() || document.n_vertices > size / sizeof(Position) ||
+  const std::size_t of_vertex = vertex_bytes(document.n_stored);
+  if (size != file.left() || document.n_vertices > size / of_vertex ||
       document.n_indices > size / document.index_bytes || document.n_indices % 3 != 0 ||
-      padded(document.n_vertices * sizeof(Position) + document.n_indices * document.index_bytes) != size)
+      padded(document.n_vertices * of_vertex + document.n_indices * document.index_bytes) != size)
     file.fail("the binary chunk is not as long as the accessors say");
 }
 
@@ -322,7 +356,7 @@ double glb_height_rounding(double lowest, double highest) {
 }
 
 void require_glb_holds(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles) {
-  const Layout layout(std::min(n_vertices, kMaxCount), std::min(n_triangles, kMaxCount));
+  const Layout layout(std::min(n_vertices, kMaxCount), std::min(n_triangles, kMaxCount), 0);
   glb_size(path, kJsonRoom, layout.binary());
 }
 
@@ -332,7 +366,7 @@ void write_glb(const std::string& path, const TerrainSurface& surface, const Gri
     throw ResourceError(path + ": glTF can't hold a mesh without triangles; write .ply instead");
   require_glb_holds(path, extent.n_vertices, extent.n_triangles);
   const LocalFrame local = local_frame(path, extent, frame);
-  const Layout layout(extent.n_vertices, extent.n_triangles);
+  const Layout layout(extent.n_vertices, extent.n_triangles, extent.n_channels);
   const std::string json = json_text(layout, extent, frame, local, node_transform(path, frame, local));
   const std::uint32_t total = glb_size(path, json.size(), layout.binary());
 
@@ -341,9 +375,12 @@ void write_glb(const std::string& path, const TerrainSurface& surface, const Gri
   write_chunk_header(file, json.size(), kJsonChunk);
   file.write(json);
   write_chunk_header(file, layout.binary(), kBinChunk);
+  const std::size_t of_vertex = vertex_bytes(extent.n_channels);
   surface.for_each_vertex_block([&](TerrainSurface::VertexBlock vertices) {
-    write_records(file, vertices, sizeof(Position), [&](const TerrainVertex& vertex, char* bytes) {
+    write_records(file, vertices, of_vertex, [&](const TerrainVertex& vertex, char* bytes) {
       std::memcpy(bytes, local_position(vertex, local).data(), sizeof(Position));
+      if (extent.n_channels == 0) return;
+      std::memcpy(bytes + sizeof(Position), stored_colour(vertex.colour, extent.n_channels).data(), kColourBytes);
     });
   });
   const auto put = layout.index_bytes == 2 ? put_triangle<std::uint16_t> : put_triangle<std::uint32_t>;
@@ -352,7 +389,7 @@ void write_glb(const std::string& path, const TerrainSurface& surface, const Gri
       put(turned(triangle, frame.is_mirrored()), bytes);
     });
   });
-  file.write(std::string(layout.binary() - layout.positions - layout.indices, '\0'));
+  file.write(std::string(layout.binary() - layout.vertices - layout.indices, '\0'));
   file.commit();
 }
 
@@ -361,9 +398,9 @@ std::string visit_glb(const std::string& path, const MeshVisitor& visitor) {
   const Document document = read_document(file);
   require_size(file, document);
   if (visitor.counts) visitor.counts(document.n_vertices, document.n_indices / 3);
-  visit_records(
-      file, document.n_vertices, sizeof(Position),
-      [&](const char* bytes) { return vertex_at(file, document, bytes); }, visitor.vertices);
+  visit_vertex_records(
+      file, {document.n_vertices, vertex_bytes(document.n_stored), document.n_stored, sizeof(Position)},
+      [&](const char* bytes) { return vertex_at(file, document, bytes); }, visitor);
   visit_records(file, document.n_indices / 3, 3 * document.index_bytes,
                 document.index_bytes == 2 ? triangle_at<std::uint16_t> : triangle_at<std::uint32_t>,
                 visitor.triangles);

@@ -14,10 +14,13 @@
 #include "io/obj.hpp"
 #include "io/ply.hpp"
 #include "io/two_dm.hpp"
+#include "io/vertex_colour.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
 namespace {
+
+constexpr float kFullLevel = 255;
 
 struct Format {
   std::string_view extension;
@@ -69,6 +72,15 @@ struct SoundMesh {
     }
   }
 
+  void require_levels(std::span<const Levels> colours) const {
+    for (const Levels& colour : colours) {
+      for (const float level : colour)
+        if (!(level >= 0 && level <= kFullLevel))
+          throw InputError(fmt::format(
+              "{}: a vertex from number {} on has a colour beyond 0 to 1; write the mesh again", path, n_vertices));
+    }
+  }
+
   void require_in_range(std::span<const std::array<std::uint64_t, 3>> triangles) {
     for (const auto& triangle : triangles) {
       for (const std::uint64_t corner : triangle)
@@ -109,8 +121,21 @@ std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_verti
   return n_vertices * format.vertex_bytes + n_triangles * (format.triangle_bytes + n_digits);
 }
 
+void require_format_holds_colour(const std::string& path, int n_channels) {
+  const std::string format = extension(path);
+  if (n_channels > 0 && format == ".2dm")
+    throw UsageError(fmt::format("{}: .2dm holds no colours; write .ply, .glb or .obj, or leave --color", path));
+  if (n_stored_channels(n_channels) == 4 && format == ".obj")
+    throw UsageError(
+        fmt::format("{}: .obj holds no alpha, which {} channels of colour have; write .ply or .glb, or choose 1 or "
+                    "3 bands with "
+                    "gdal_translate -b",
+                    path, n_channels));
+}
+
 void write_mesh(const std::string& path, const TerrainSurface& surface, const GridFrame& frame) {
   require_mesh_extension(path);
+  require_format_holds_colour(path, surface.extent().n_channels);
   format_of(path)->write(path, surface, frame);
 }
 
@@ -126,6 +151,10 @@ std::string visit_mesh(const std::string& path, const MeshVisitor& visitor) {
   checked.vertices = [&](std::span<const std::array<double, 3>> vertices) {
     sound.require_finite(vertices);
     visitor.vertices(vertices);
+  };
+  checked.colours = [&](std::span<const Levels> colours, int n_channels) {
+    sound.require_levels(colours);
+    if (visitor.colours) visitor.colours(colours, n_channels);
   };
   checked.triangles = [&](std::span<const std::array<std::uint64_t, 3>> triangles) {
     sound.require_in_range(triangles);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "geodesy/grid_frame.hpp"
+#include "geometry/colour.hpp"
 #include "mesh/terrain_mesh.hpp"
 #include "tinsmith/tin.hpp"
 
@@ -31,17 +32,23 @@ void require_format_holds(const std::string& path, std::uint64_t n_vertices, std
 /// About how many bytes write_mesh will write; for text an estimate, by numbers of common length.
 std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles);
 
+/// Throws UsageError when the format of this path can't hold vertices with colours of so many channels (0: none);
+/// says which can. .ply and .glb hold all, .obj those without alpha, .2dm none.
+void require_format_holds_colour(const std::string& path, int n_channels);
+
 /// Writes aside and renames when whole, so that a failed write leaves the previous file as it was. Writes the
 /// .prj companion of .obj and .2dm the same way. The bytes depend on the arguments only, the path excluded.
 /// Goes through the vertices once and through the triangles once, in a few MB of memory. Throws OutputError (with
 /// the system's reason), and ResourceError before a byte is written when the format can't hold the mesh.
+/// Colours become bytes of red, green and blue: grey is all three alike, the second of two and the fourth of four
+/// channels is alpha. .ply: uchar properties; .glb: COLOR_0; .obj: fractions of 255 behind the coordinates.
 void write_mesh(const std::string& path, const TerrainSurface& surface, const GridFrame& frame);
 void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame);
 
 /// Reads any of the written formats back, in the CRS and vertical unit of the input that it was made from
 /// (GLB: undoing the node's transform and the metres that its extras declare). Throws InputError, with the
 /// place of the damage, for anything that is not a whole, valid file: never crashes on garbage. Throws
-/// ResourceError when there are more vertices than a Tin can number.
+/// ResourceError when there are more vertices than a Tin can number. Leaves colours out.
 Tin read_mesh(const std::string& path);
 
 /// The same block by block, in a few MB for meshes that need not fit in memory: all vertices in their order, then
@@ -51,6 +58,9 @@ struct MeshVisitor {
   std::function<void(std::span<const std::array<std::uint64_t, 3>>)> triangles;
   /// May be empty. Called before all else when the file says how many there are and is long enough for them.
   std::function<void(std::uint64_t n_vertices, std::uint64_t n_triangles)> counts = nullptr;
+  /// May be empty. Called for files with colours only, before `vertices` with the same block: levels of red, green,
+  /// blue, and of alpha when n_channels is 4, not 3.
+  std::function<void(std::span<const Levels>, int n_channels)> colours = nullptr;
 };
 
 /// Returns the CRS as WKT, empty when unknown.

@@ -69,6 +69,32 @@ class Blocks {
   std::vector<T> block_;
 };
 
+/// Hands vertices on in blocks, with their colours when all have one.
+class VertexBlocks {
+ public:
+  VertexBlocks(const InputFile& file, const MeshVisitor& visitor)
+      : file_(file),
+        visit_([this, &visitor](std::span<const ColouredVertex> vertices) {
+          visit_coloured(vertices, has_colour_ ? kChannels : 0, visitor);
+        }),
+        blocks_(visit_) {}
+  void add(const TextVertex& vertex) {
+    if (n_++ == 0) has_colour_ = vertex.has_colour;
+    if (vertex.has_colour != has_colour_) file_.fail("only some of the vertices have a colour");
+    blocks_.add(vertex);
+  }
+  void hand_on() { blocks_.hand_on(); }
+  std::uint64_t count() const { return n_; }
+
+ private:
+  static constexpr int kChannels = 3;
+  const InputFile& file_;
+  bool has_colour_ = false;
+  std::uint64_t n_ = 0;
+  std::function<void(std::span<const ColouredVertex>)> visit_;
+  Blocks<ColouredVertex> blocks_;
+};
+
 /// The one value that the numbers of a line make.
 template <class T>
 T value_of(const InputFile& file, std::string_view rest, T (*read)(LineNumbers&, std::uint64_t),
@@ -100,14 +126,13 @@ TextCounts counts_at_head(InputFile& file, const MeshVisitor& visitor) {
 }
 
 FoundTriangles visit_vertices(InputFile& file, const TextLines& lines, const MeshVisitor& visitor) {
-  Blocks vertices(visitor.vertices);
+  VertexBlocks vertices(file, visitor);
   FoundTriangles triangles;
   TextCounts counts = counts_at_head(file, visitor);
-  std::uint64_t n_vertices = 0;
   std::uint64_t begin = file.position();
   for (std::string_view line; file.read_line(line); begin = file.position()) {
     if (line.starts_with(lines.vertex)) {
-      vertices.add(value_of(file, line.substr(lines.vertex.size()), lines.vertex_of, n_vertices++));
+      vertices.add(value_of(file, line.substr(lines.vertex.size()), lines.vertex_of, vertices.count()));
     } else if (line.starts_with(lines.triangle)) {
       if (triangles.count++ == 0) triangles.begin = begin;
     } else if (!counts.read_comment(file, line) && !lines.is_ignored(line)) {
@@ -115,7 +140,7 @@ FoundTriangles visit_vertices(InputFile& file, const TextLines& lines, const Mes
     }
   }
   if (!counts.promised() && triangles.count == 0) file.fail("has no triangles");
-  counts.require_whole(file, n_vertices, triangles.count);
+  counts.require_whole(file, vertices.count(), triangles.count);
   vertices.hand_on();
   return triangles;
 }
@@ -187,9 +212,13 @@ std::array<std::uint64_t, 3> LineNumbers::corners() {
 
 std::uint64_t LineNumbers::count() { return next<std::uint64_t>(); }
 
-void LineNumbers::end() {
+bool LineNumbers::is_end() {
   skip_blanks();
-  if (!rest_.empty()) file_.fail("a line has more than belongs there");
+  return rest_.empty();
+}
+
+void LineNumbers::end() {
+  if (!is_end()) file_.fail("a line has more than belongs there");
 }
 
 bool TextCounts::read_comment(const InputFile& file, std::string_view line) {

@@ -11,11 +11,17 @@
 #include "geodesy/grid_frame.hpp"
 #include "io/input_file.hpp"
 #include "io/output_file.hpp"
+#include "io/vertex_colour.hpp"
 #include "mesh/terrain_mesh.hpp"
 
 namespace tinsmith {
 
 struct MeshVisitor;
+
+/// A vertex of a line of text.
+struct TextVertex : ColouredVertex {
+  bool has_colour = false;
+};
 
 /// A vertex in CRS coordinates.
 std::array<double, 3> vertex_in_crs(const TerrainVertex& vertex, const GridFrame& frame);
@@ -46,6 +52,7 @@ class LineNumbers {
   /// Three numbers from 1, as indices from 0.
   std::array<std::uint64_t, 3> corners();
   std::uint64_t count();
+  bool is_end();
   /// Complains unless the line ends here.
   void end();
   [[noreturn]] void fail(const char* what) const { file_.fail(what); }
@@ -76,7 +83,7 @@ class TextCounts {
 struct TextLines {
   std::string_view vertex;  // what the line begins with
   std::string_view triangle;
-  std::array<double, 3> (*vertex_of)(LineNumbers& numbers, std::uint64_t n_before);
+  TextVertex (*vertex_of)(LineNumbers& numbers, std::uint64_t n_before);
   std::array<std::uint64_t, 3> (*triangle_of)(LineNumbers& numbers, std::uint64_t n_before);
   bool (*is_ignored)(std::string_view line);  // of lines that are neither
 };

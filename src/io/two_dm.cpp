@@ -11,9 +11,9 @@ void require_number(LineNumbers& numbers, std::uint64_t n_before) {
   if (numbers.count() != n_before + 1) numbers.fail("the numbers of vertices or triangles are not 1, 2, 3...");
 }
 
-std::array<double, 3> vertex_of(LineNumbers& numbers, std::uint64_t n_before) {
+TextVertex vertex_of(LineNumbers& numbers, std::uint64_t n_before) {
   require_number(numbers, n_before);
-  return numbers.coordinates();
+  return {{numbers.coordinates(), {}}, false};
 }
 
 std::array<std::uint64_t, 3> triangle_of(LineNumbers& numbers, std::uint64_t n_before) {

@@ -24,6 +24,7 @@ void visit_blocks(std::size_t n, Make make, const Visit& visit) {
 MeshSurface::MeshSurface(const TerrainMesh& mesh) : mesh_(mesh) {
   extent_.n_vertices = mesh.position.size();
   extent_.n_triangles = mesh.triangles.size();
+  extent_.n_channels = mesh.n_channels;
   if (mesh.position.empty()) return;
   extent_.low = extent_.high = mesh.position.front();
   for (const LatticePoint p : mesh.position) {
@@ -39,7 +40,7 @@ void MeshSurface::for_each_vertex_block(const std::function<void(VertexBlock)>& 
   visit_blocks<TerrainVertex>(
       mesh_.position.size(),
       [&](std::size_t v) {
-        return TerrainVertex{mesh_.position[v], mesh_.height[v]};
+        return TerrainVertex{mesh_.position[v], mesh_.height[v], mesh_.n_channels > 0 ? mesh_.colour[v] : Levels{}};
       },
       visit);
 }

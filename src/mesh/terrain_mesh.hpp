@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/colour.hpp"
 #include "geometry/lattice.hpp"
 
 namespace tinsmith {
@@ -17,11 +18,14 @@ struct TerrainMesh {
   std::vector<LatticePoint> position;
   std::vector<double> height;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Levels> colour = {};  // by vertex; empty without channels
+  int n_channels = 0;               // of the colours; 0: there are none
 };
 
 struct TerrainVertex {
   LatticePoint position;
   double height = 0;  // vertical unit of the input
+  Levels colour = {};
 };
 
 /// What a writer must know before the first vertex. All of it is exact: .glb declares it, and finds its origin by
@@ -33,6 +37,7 @@ struct TerrainExtent {
   LatticePoint high;
   double lowest = 0;
   double highest = 0;
+  int n_channels = 0;  // of the vertices' colours; 0: they have none
 };
 
 /// A finished surface that need not be in memory: it can be gone through any number of times, in blocks of some

@@ -198,10 +198,11 @@ Tin compress(const HeightArray& heights, const CompressOptions& options, Compres
       {field, frame, {}, 0}, options, [](double) { return std::string(); }, report ? *report : own);
   Tin tin;
   surface->for_each_vertex_block([&](TerrainSurface::VertexBlock block) {
-    for (const auto& [p, height] : block) {
+    for (const TerrainVertex& vertex : block) {
+      const LatticePoint p = vertex.position;
       const auto [x, y] =
           frame.to_crs(static_cast<double>(p.x) / kLatticePerCell, static_cast<double>(p.y) / kLatticePerCell);
-      tin.vertices.push_back({x, y, height});
+      tin.vertices.push_back({x, y, vertex.height});
     }
   });
   tin.triangles = mesh_of(*surface).triangles;

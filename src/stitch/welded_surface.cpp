@@ -62,8 +62,10 @@ std::size_t WeldedSurface::PlaceHash::operator()(LatticePoint p) const {
   return mix(static_cast<std::uint64_t>(static_cast<std::uint32_t>(p.x)) << 32 | static_cast<std::uint32_t>(p.y));
 }
 
-WeldedSurface::WeldedSurface(const WindowGraph& graph, ChunkOf chunk_of)
-    : graph_(graph), chunk_of_(std::move(chunk_of)) {}
+WeldedSurface::WeldedSurface(const WindowGraph& graph, ChunkOf chunk_of, int n_channels)
+    : graph_(graph), chunk_of_(std::move(chunk_of)) {
+  extent_.n_channels = n_channels;
+}
 
 void WeldedSurface::add_next() {
   const WindowGrid& windows = graph_.windows(graph_.last_round());
@@ -172,7 +174,8 @@ void WeldedSurface::for_each_vertex_block(const std::function<void(VertexBlock)>
   std::vector<TerrainVertex> block;
   for_each_numbered([&](const Chunk& chunk, const auto&, const std::vector<std::uint8_t>& is_new) {
     for (std::size_t v = 0; v < is_new.size(); ++v) {
-      if (is_new[v]) block.push_back({chunk.position[v], chunk.height[v]});
+      if (!is_new[v]) continue;
+      block.push_back({chunk.position[v], chunk.height[v], chunk.colour.empty() ? Levels{} : chunk.colour[v]});
     }
     if (block.size() < kBlock) return;
     visit(block);
@@ -194,6 +197,7 @@ void WeldedSurface::for_each_triangle_block(const std::function<void(TriangleBlo
 
 TerrainMesh mesh_of(const TerrainSurface& surface) {
   TerrainMesh mesh;
+  mesh.n_channels = surface.extent().n_channels;
   mesh.position.reserve(surface.extent().n_vertices);
   mesh.height.reserve(surface.extent().n_vertices);
   mesh.triangles.reserve(surface.extent().n_triangles);
@@ -201,6 +205,7 @@ TerrainMesh mesh_of(const TerrainSurface& surface) {
     for (const TerrainVertex& vertex : block) {
       mesh.position.push_back(vertex.position);
       mesh.height.push_back(vertex.height);
+      if (mesh.n_channels > 0) mesh.colour.push_back(vertex.colour);
     }
   });
   surface.for_each_triangle_block([&](TerrainSurface::TriangleBlock block) {

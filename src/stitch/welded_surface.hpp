@@ -21,8 +21,8 @@ class WeldedSurface : public TerrainSurface {
   /// The chunk of a window of the last round; null when it is empty. May be asked for again and again.
   using ChunkOf = std::function<std::shared_ptr<const Chunk>(std::int64_t window)>;
 
-  /// The graph must outlive the surface.
-  WeldedSurface(const WindowGraph& graph, ChunkOf chunk_of);
+  /// The graph must outlive the surface. `n_channels` of the chunks' colours; 0: they have none.
+  WeldedSurface(const WindowGraph& graph, ChunkOf chunk_of, int n_channels = 0);
 
   /// Takes account of the next window of the last round: each once, in their order, before anything else.
   void add_next();
