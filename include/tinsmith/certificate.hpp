@@ -34,7 +34,10 @@ struct Certificate {
   double area_valid = 0;                    // of the fully valid 2 x 2 blocks
   double cells_plan = 0;                    // the same two in cells of the grid, where they can be compared exactly
   double cells_valid = 0;
-  double rounding = 0;  // what double arithmetic alone may add to an error at these heights
+  std::uint64_t color_samples = 0;  // samples with colour in or on a triangle; 0 too when colours were not measured
+  double color_rmse = 0;            // levels of 255, over these samples and the channels of the file
+  double color_max_error = 0;       // largest difference of a channel, levels of 255
+  double rounding = 0;              // what double arithmetic alone may add to an error at these heights
 
   /// Empty when everything holds; otherwise one sentence for each thing that does not. A tolerance below
   /// zero means: none was asked for.

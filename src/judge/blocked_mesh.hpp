@@ -6,14 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "base/scratch_file.hpp"
 #include "geodesy/grid_frame.hpp"
+#include "judge/block_bins.hpp"
 #include "judge/block_grid.hpp"
 #include "judge/vertex_store.hpp"
 
@@ -26,6 +24,12 @@ struct Budget {
   std::string folder;
 };
 
+/// Levels of 0 to 255: red, green, blue, alpha, as far as the mesh has them.
+using VertexColour = std::array<float, 4>;
+
+/// The colours of a facet's corners.
+using FacetColours = std::array<VertexColour, 3>;
+
 class BlockedMesh {
  public:
   BlockedMesh(const BlockGrid& grid, const GridFrame& frame, const Budget& budget);
@@ -34,46 +38,36 @@ class BlockedMesh {
   /// and are in range. Throws InputError when a vertex is beyond all measure away, ResourceError when there are
   /// more than 2^32 - 1 or a scratch file is full.
   void add_vertices(std::span<const std::array<double, 3>> vertices);
+  /// The colours of all vertices, before the triangles, or of none.
+  void add_colours(std::span<const VertexColour> colours);
   void add_triangle(const std::array<std::uint64_t, 3>& triangle);
   /// Frees what only adding needs.
   void close();
 
   std::uint64_t n_vertices() const { return vertices_.size(); }
   std::uint64_t n_triangles() const { return n_triangles_; }
+  bool has_colours() const { return colours_.size() > 0; }
   double largest_height() const { return largest_height_; }  // of the vertices, as a size
   const BlockGrid& grid() const { return grid_; }
 
   /// The blocks that a triangle may touch, in their order.
-  std::vector<BlockNumber> blocks() const;
-  std::size_t n_facets(BlockNumber block) const;
+  std::vector<BlockNumber> blocks() const { return facets_.blocks(); }
+  std::size_t n_facets(BlockNumber block) const { return facets_.count(block); }
   /// The facets of a block by their numbers; the mesh forgets them. Several threads may take different blocks.
-  std::vector<Facet> take(BlockNumber block);
+  std::vector<Facet> take(BlockNumber block) { return facets_.take(block); }
+  /// Their colours, in the same order; empty without.
+  std::vector<FacetColours> take_colours(BlockNumber block) { return facet_colours_.take(block); }
 
  private:
-  struct Piece {
-    std::uint64_t place;
-    std::size_t n_facets;
-  };
-  struct Bin {
-    std::vector<Piece> in_file;
-    std::vector<Facet> in_memory;
-    std::size_t n_facets = 0;
-  };
-  Bin& bin_of(BlockNumber block);
-  void put(const Facet& facet, Bin& bin);
-  void spill();
-
   const BlockGrid& grid_;
   const GridFrame& frame_;
-  Budget budget_;
-  VertexStore vertices_;
+  VertexStore<PlanVertex> vertices_;
+  VertexStore<VertexColour> colours_;
   std::uint64_t n_triangles_ = 0;
   double largest_height_ = 0;
-  std::map<BlockNumber, Bin> bins_;
-  std::map<BlockNumber, Bin>::iterator last_ = bins_.end();  // triangles come in neighbourhoods
-  std::vector<BlockNumber> touched_;                         // by the triangle at hand
-  std::uint64_t bytes_ = 0;                                  // of facets in memory
-  std::optional<ScratchFile> scratch_;
+  BlockBins<Facet> facets_;
+  BlockBins<FacetColours> facet_colours_;
+  std::vector<BlockNumber> touched_;  // by the triangle at hand
 };
 
 }  // namespace tinsmith

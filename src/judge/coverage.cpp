@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "judge/facet_samples.hpp"
+
 namespace tinsmith {
 namespace {
 
@@ -38,54 +40,6 @@ Coverage read_samples(const HeightField& field, const GridRect& rect) {
 
 // ---- triangles over samples
 
-/// The side on which a triangle lies of one of its edges: value(x, y) = length times the distance inside.
-struct Side {
-  Side(const PlanPoint& from, const PlanPoint& to)
-      : start(from), nx(from.y - to.y), ny(to.x - from.x), slack(kPlanEpsilon * std::hypot(nx, ny)) {}
-  double value(double x, double y) const { return nx * (x - start.x) + ny * (y - start.y); }
-
-  PlanPoint start;
-  double nx, ny;  // inward normal, as long as the edge
-  double slack;
-};
-
-struct Slope {
-  PlanPoint a, b, c;  // counter-clockwise in the grid
-  double za, zb, zc;
-};
-
-Slope slope_of(const Facet& facet) {
-  auto [i, j, k] = std::array<std::size_t, 3>{0, 1, 2};
-  const auto& [a, b, c] = facet.position;
-  if (doubled_area(a, b, c) < 0) std::swap(j, k);
-  return {facet.position[i], facet.position[j], facet.position[k],
-          facet.height[i],   facet.height[j],   facet.height[k]};
-}
-
-struct Span {
-  std::int32_t first;
-  std::int32_t last;  // smaller when empty
-};
-
-/// Whole numbers within [low, high] and [least, most].
-Span whole_within(double low, double high, std::int32_t least, std::int32_t most) {
-  return {static_cast<std::int32_t>(std::clamp(std::ceil(low), double{0} + least, most + 1.0)),
-          static_cast<std::int32_t>(std::clamp(std::floor(high), least - 1.0, double{0} + most))};
-}
-
-/// The columns that may lie in the triangle on a row: at least all that do.
-Span columns_of(const Slope& f, const std::array<Side, 3>& sides, double y, const GridRect& rect) {
-  double low = std::min({f.a.x, f.b.x, f.c.x});
-  double high = std::max({f.a.x, f.b.x, f.c.x});
-  for (const Side& side : sides) {
-    if (side.nx == 0) continue;
-    const double x = side.start.x - (side.ny * (y - side.start.y) + side.slack) / side.nx;
-    if (side.nx > 0) low = std::max(low, x);
-    if (side.nx < 0) high = std::min(high, x);
-  }
-  return whole_within(low - kPlanEpsilon, high + kPlanEpsilon, rect.x0, rect.x0 + rect.width - 1);
-}
-
 void record(Coverage& coverage, std::int32_t x, std::int32_t y, double z, bool is_strict) {
   const std::size_t i = coverage.index(x, y);
   if (is_strict && coverage.n_inside[i] < 2) ++coverage.n_inside[i];
@@ -95,27 +49,10 @@ void record(Coverage& coverage, std::int32_t x, std::int32_t y, double z, bool i
 
 /// Records the triangle at all samples of the block that lie in it.
 void cover(const Facet& facet, Coverage& coverage) {
-  const Slope f = slope_of(facet);
-  if (!(doubled_area(f.a, f.b, f.c) > 0)) return;
-  const std::array<Side, 3> sides{Side(f.b, f.c), Side(f.c, f.a), Side(f.a, f.b)};  // opposite a, b, c
-  const Span rows =
-      whole_within(std::min({f.a.y, f.b.y, f.c.y}) - kPlanEpsilon, std::max({f.a.y, f.b.y, f.c.y}) + kPlanEpsilon,
-                   coverage.rect.y0, coverage.rect.y0 + coverage.rect.height - 1);
-  for (std::int32_t y = rows.first; y <= rows.last; ++y) {
-    const Span columns = columns_of(f, sides, y, coverage.rect);
-    for (std::int32_t x = columns.first; x <= columns.last; ++x) {
-      const double ea = sides[0].value(x, y);
-      const double eb = sides[1].value(x, y);
-      const double ec = sides[2].value(x, y);
-      if (ea < -sides[0].slack || eb < -sides[1].slack || ec < -sides[2].slack) continue;
-      // Within the slack outside an edge the height is that of the edge: nothing is extrapolated.
-      const double wa = std::max(ea, 0.0);
-      const double wb = std::max(eb, 0.0);
-      const double wc = std::max(ec, 0.0);
-      record(coverage, x, y, (wa * f.za + wb * f.zb + wc * f.zc) / (wa + wb + wc),
-             ea > sides[0].slack && eb > sides[1].slack && ec > sides[2].slack);
-    }
-  }
+  for_each_sample_in(
+      facet, coverage.rect, [&](std::int32_t x, std::int32_t y, const CornerWeights& corners, bool is_strict) {
+        record(coverage, x, y, corners.mean([&](std::size_t k) { return facet.height[k]; }), is_strict);
+      });
 }
 
 // ---- statistics

@@ -23,10 +23,11 @@ void keep_worse_error(Certificate& kept, const Certificate& other) {
 }
 
 void add_counts(Certificate& sum, const Certificate& other) {
-  for (const auto count : {&Certificate::samples, &Certificate::covered, &Certificate::uncovered,
-                           &Certificate::overlapped, &Certificate::voids_covered, &Certificate::folded,
-                           &Certificate::non_manifold_edges, &Certificate::non_manifold_vertices,
-                           &Certificate::t_junctions, &Certificate::unwelded_edges, &Certificate::components})
+  for (const auto count :
+       {&Certificate::samples, &Certificate::covered, &Certificate::uncovered, &Certificate::overlapped,
+        &Certificate::voids_covered, &Certificate::folded, &Certificate::non_manifold_edges,
+        &Certificate::non_manifold_vertices, &Certificate::t_junctions, &Certificate::unwelded_edges,
+        &Certificate::components, &Certificate::color_samples})
     sum.*count += other.*count;
 }
 
@@ -72,6 +73,12 @@ void Findings::add_error(double size_and_sign, std::int32_t x, std::int32_t y) {
   keep_worse_error(counts, here);
 }
 
+void Findings::add_colour_difference(double size) {
+  ++n_colour_differences;
+  squared_colour.add(size * size);
+  counts.color_max_error = std::max(counts.color_max_error, size);
+}
+
 void Findings::add(const Findings& other) {
   add_counts(counts, other.counts);
   keep_worse_error(counts, other.counts);
@@ -84,6 +91,9 @@ void Findings::add(const Findings& other) {
   area_valid.add(other.area_valid);
   cells_plan.add(other.cells_plan);
   cells_valid.add(other.cells_valid);
+  n_colour_differences += other.n_colour_differences;
+  squared_colour.add(other.squared_colour);
+  counts.color_max_error = std::max(counts.color_max_error, other.counts.color_max_error);
   links.insert(links.end(), other.links.begin(), other.links.end());
 }
 
@@ -99,6 +109,9 @@ Certificate certificate_of(const Findings& findings, double metres_per_vertical_
   certificate.rounding =
       16 * std::numeric_limits<double>::epsilon() * findings.largest_height * metres_per_vertical_unit;
   certificate.max_error *= metres_per_vertical_unit;
+  if (findings.n_colour_differences > 0)
+    certificate.color_rmse =
+        std::sqrt(findings.squared_colour.value() / static_cast<double>(findings.n_colour_differences));
   if (findings.n_errors == 0) return certificate;
   const auto n = static_cast<double>(findings.n_errors);
   certificate.mean_error = findings.error.value() / n * metres_per_vertical_unit;

@@ -40,9 +40,12 @@ struct Findings {
   ExactSum area_valid;
   ExactSum cells_plan;  // cells
   ExactSum cells_valid;
+  std::uint64_t n_colour_differences = 0;
+  ExactSum squared_colour;  // levels
   std::vector<Link> links;  // of triangles that several blocks see, each at least once, be it with itself
 
   void add_error(double size_and_sign, std::int32_t x, std::int32_t y);
+  void add_colour_difference(double size);
   void add(const Findings& other);
 };
 

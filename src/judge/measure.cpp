@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "judge/colour_error.hpp"
 #include "judge/coverage.hpp"
 #include "judge/topology.hpp"
 #include "tinsmith/error.hpp"
@@ -41,12 +42,16 @@ std::vector<BlockNumber> blocks_to_measure(const BlockedMesh& mesh, const Height
   return blocks;
 }
 
-std::uint64_t memory_of(const BlockedMesh& mesh, BlockNumber block) {
+std::uint64_t memory_of(const BlockedMesh& mesh, BlockNumber block, const Samples& samples) {
   // Heights twice while they are read, errors and flags; facets, the uses of their edges, and what these connect.
   constexpr std::uint64_t kPerSample = 40;
   constexpr std::uint64_t kPerFacet = sizeof(Facet) + 80;
-  return kPerSample * static_cast<std::uint64_t>(mesh.grid().samples_of(block).area()) +
-         kPerFacet * mesh.n_facets(block);
+  // Levels of the field, differences and the heights again; what is read at a time.
+  constexpr std::uint64_t kPerColour = 4 * (8 + 8 + 4) + 16;
+  const bool has_colours = samples.colours != nullptr;
+  return (kPerSample + (has_colours ? kPerColour : 0)) *
+             static_cast<std::uint64_t>(mesh.grid().samples_of(block).area()) +
+         (kPerFacet + (has_colours ? sizeof(FacetColours) : 0)) * mesh.n_facets(block);
 }
 
 void measure_block(BlockedMesh& mesh, BlockNumber number, const Samples& samples, Findings& findings) {
@@ -55,6 +60,8 @@ void measure_block(BlockedMesh& mesh, BlockNumber number, const Samples& samples
   measure_areas(block, samples.frame, findings);
   measure_border(block, measure_topology(block, findings), findings);
   measure_coverage(mesh.grid().samples_of(number), facets, samples.field, samples.frame, findings);
+  if (samples.colours == nullptr) return;
+  measure_colours(mesh.grid().samples_of(number), {facets, mesh.take_colours(number)}, samples, findings);
 }
 
 Certificate conclude(const BlockedMesh& mesh, Findings findings, const GridFrame& frame) {

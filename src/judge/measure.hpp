@@ -6,6 +6,7 @@
 #include "geodesy/grid_frame.hpp"
 #include "judge/blocked_mesh.hpp"
 #include "judge/findings.hpp"
+#include "samples/colour_grid.hpp"
 #include "samples/height_grid.hpp"
 #include "tinsmith/certificate.hpp"
 #include "tinsmith/progress.hpp"
@@ -19,6 +20,7 @@ struct Samples {
   const GridFrame& frame;
   BlockSize block;
   Progress progress;
+  const ColourField* colours = nullptr;  // on the grid of the field; null: those of the mesh are not measured
 };
 
 /// Everything in the certificate, the same for all sizes of blocks and all budgets. The mesh is in the CRS of
@@ -29,7 +31,7 @@ Certificate measure(const Tin& tin, const Samples& samples, const Budget& budget
 std::vector<BlockNumber> blocks_to_measure(const BlockedMesh& mesh, const HeightField& field);
 
 /// Bytes that measuring a block takes, about.
-std::uint64_t memory_of(const BlockedMesh& mesh, BlockNumber block);
+std::uint64_t memory_of(const BlockedMesh& mesh, BlockNumber block, const Samples& samples);
 
 /// Adds all that is found in a block. Several threads may measure different blocks of a mesh.
 void measure_block(BlockedMesh& mesh, BlockNumber block, const Samples& samples, Findings& findings);

@@ -56,7 +56,7 @@ class BlockQueue {
   void work() {
     Findings own;
     for (std::size_t i = next_++; i < blocks_.size() && !tbb::is_current_task_group_canceling(); i = next_++) {
-      const Admission admission(gate_, memory_of(mesh_, blocks_[i]));
+      const Admission admission(gate_, memory_of(mesh_, blocks_[i], samples_));
       measure_block(mesh_, blocks_[i], samples_, own);
       block_done();
     }

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "base/machine_memory.hpp"
+#include "io/colour_raster.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
+#include "judge/colour_error.hpp"
 #include "pipeline/measure_blocks.hpp"
 #include "tinsmith/error.hpp"
 
@@ -31,8 +34,28 @@ int thread_count(const VerifyOptions& options) {
   return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
 }
 
+/// Colours of the mesh, for comparison with a raster.
+void visit_colours(const std::string& mesh_path, const ColourField& field, BlockedMesh& mesh,
+                   MeshVisitor& visitor) {
+  const auto wanted = static_cast<int>(n_mesh_channels(field.n_channels()));
+  visitor.colours = [&mesh, &mesh_path, wanted](std::span<const Levels> colours, int n_channels) {
+    if (n_channels != wanted)
+      throw InputError(
+          fmt::format("{}: has {} channels of colour, the raster of colours gives {}; name the one that the "
+                      "mesh was made with",
+                      mesh_path, n_channels, wanted));
+    mesh.add_colours(colours);
+  };
+}
+
+void require_colours(const std::string& mesh_path, const BlockedMesh& mesh) {
+  if (mesh.n_vertices() == 0 || mesh.has_colours()) return;
+  throw InputError(mesh_path + ": has no colours to measure; leave --color, or make the mesh with it");
+}
+
 void add_file(const std::string& mesh_path, const Samples& samples, BlockedMesh& mesh) {
   MeshVisitor visitor;
+  if (samples.colours != nullptr) visit_colours(mesh_path, *samples.colours, mesh, visitor);
   visitor.vertices = [&](std::span<const std::array<double, 3>> vertices) {
     report_progress(samples, 0);
     mesh.add_vertices(vertices);
@@ -42,6 +65,7 @@ void add_file(const std::string& mesh_path, const Samples& samples, BlockedMesh&
     for (const auto& triangle : triangles) mesh.add_triangle(triangle);
   };
   visit_mesh(mesh_path, visitor);
+  if (samples.colours != nullptr) require_colours(mesh_path, mesh);
   mesh.close();
 }
 
@@ -57,11 +81,14 @@ Certificate verify(const std::vector<std::string>& inputs, const std::string& me
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const std::uint64_t memory = options.memory > 0 ? options.memory : machine_memory() / 4;
   const RasterField field(inputs, input_options);
-  const Samples samples{field, field.frame(), {}, options.progress};
+  std::optional<ColourRaster> colours;
+  if (!options.color.empty()) colours.emplace(options.color, field.frame(), field.width(), field.height());
+  const Samples samples{field, field.frame(), {}, options.progress, colours ? &*colours : nullptr};
   const BlockGrid grid(field, samples.block);
   const std::uint64_t working = working_memory(memory);
-  // Vertices are let go of before blocks are measured.
-  BlockedMesh mesh(grid, field.frame(), {working / 4, working / 4, scratch_folder(mesh_path, options)});
+  // Vertices are let go of before blocks are measured. Colours take up to two thirds as much again.
+  const std::uint64_t share = colours ? working / 7 : working / 4;
+  BlockedMesh mesh(grid, field.frame(), {share, share, scratch_folder(mesh_path, options)});
   add_file(mesh_path, samples, mesh);
   return measure_blocks(mesh, samples, threads, working / 4 * 3);
 }
