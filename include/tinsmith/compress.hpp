@@ -28,8 +28,10 @@ struct CompressReport {
 };
 
 /// Reads the rasters as one grid, compresses them and writes `output` (.ply .obj .glb .2dm). The bytes
-/// written depend on the inputs and options only, not on threads. Throws one of tinsmith/error.hpp; then
-/// what stood at `output` before still stands there. The caller measures the result with verify().
+/// written depend on the inputs and options only, not on threads. A raster `color` of 1 to 4 bands, in any CRS and
+/// resolution, gives the vertices colours (not in .2dm, .obj without alpha), which weigh in what is kept; the
+/// largest vertical error is the same promise. Where it has none they are white. Throws one of tinsmith/error.hpp;
+/// then what stood at `output` before still stands there. The caller measures the result with verify().
 CompressReport compress(const std::vector<std::string>& inputs, const std::string& output,
                         const InputOptions& input_options, const CompressOptions& options);
 

@@ -49,6 +49,8 @@ struct CompressOptions {
   std::optional<double> max_error;  // metres: largest vertical error against any sample
   std::optional<double> triangles;  // at most so many triangles, with the least error that reaches it
   std::optional<double> ratio;      // the same as a fraction (0 to 1] of the full grid's triangles
+  std::string color;  // raster that gives the vertices colours; empty: none. For compress() of rasters only
+  double color_tolerance = 12;  // levels of 255: root mean square that no collapse may exceed about itself; above 0
   Placement placement = Placement::kOptimal;
   Effort effort = Effort::kDefault;
   int window = 256;          // samples along a window's side; may change the result, never its guarantees

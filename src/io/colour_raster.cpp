@@ -233,6 +233,7 @@ struct ColourRaster::Impl {
   std::string path;
   Target target;
   ColourSource colours;
+  bool has_crs = false;
   mutable std::mutex mutex;
   mutable std::vector<Warped> idle;  // a GDALDataset may serve one thread at a time
 
@@ -270,6 +271,7 @@ ColourRaster::ColourRaster(const std::string& path, const GridFrame& frame, std:
   impl_->target = {frame, width, height};
   Warped chain = open_source(path);
   impl_->colours = describe(chain.source(), path);
+  impl_->has_crs = chain.source().GetSpatialRef() != nullptr;
   {
     const QuietGdal quiet;
     const Transformer transformer(chain.source(), impl_->target, path);
@@ -290,6 +292,15 @@ ColourRaster::ColourRaster(const std::string& path, const GridFrame& frame, std:
 ColourRaster::~ColourRaster() {
   const QuietGdal quiet;
   impl_->idle.clear();
+}
+
+std::optional<std::string> ColourRaster::remark() const {
+  const bool has_terrain_crs = !impl_->target.frame.crs_wkt.empty();
+  if (impl_->has_crs == has_terrain_crs) return std::nullopt;
+  return impl_->has_crs
+             ? fmt::format("{}: the terrain has no CRS; its coordinates are taken to be those of the colours",
+                           impl_->path)
+             : fmt::format("{}: has no CRS; its coordinates are taken to be those of the terrain", impl_->path);
 }
 
 int ColourRaster::n_channels() const { return static_cast<int>(impl_->colours.bands.size()); }

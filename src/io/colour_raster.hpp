@@ -2,6 +2,7 @@
 // A GDAL raster as colours on the grid of a height field.
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "geodesy/grid_frame.hpp"
@@ -22,6 +23,9 @@ class ColourRaster : public ColourField {
   /// has too many bands or complex ones, no place on the earth, or lies elsewhere.
   ColourRaster(const std::string& path, const GridFrame& frame, std::int32_t width, std::int32_t height);
   ~ColourRaster() override;
+
+  /// What the user should be told once: that a CRS is missing.
+  std::optional<std::string> remark() const;
 
   int n_channels() const override;
   ColourGrid read(const GridRect& rect) const override;

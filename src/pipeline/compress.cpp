@@ -8,7 +8,9 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 
+#include "io/colour_raster.hpp"
 #include "io/input_identity.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
@@ -53,7 +55,8 @@ struct Target {
   const HeightField& field;
   const GridFrame& frame;
   std::string output;
-  std::uint64_t chunk_memory = 0;  // bytes
+  std::uint64_t chunk_memory = 0;        // bytes
+  const ColourField* colours = nullptr;  // null: none
 };
 
 // How much the format may change a height of the result, in vertical units. Vertices keep to the heights of the
@@ -104,8 +107,9 @@ std::shared_ptr<const TerrainSurface> compress_field(const Target& target, const
   const auto run = [&](double tolerance, CompressReport& of_run) {
     const std::string stage = options.max_error ? "simplify" : fmt::format("try {}", ++n_tries);
     const double rounding = rounding_of_format(target.field, target.output, tolerance);
-    const RoundsOptions rounds{tolerance - rounding, options.window,       options.placement,
-                               options.effort,       folder_of(tolerance), target.chunk_memory};
+    const RoundsOptions rounds{tolerance - rounding, options.window,           options.placement,
+                               options.effort,       folder_of(tolerance),     target.chunk_memory,
+                               target.colours,       {options.color_tolerance}};
     auto surface = run_rounds(target.field, target.frame, rounds, renamed(options.progress, stage), of_run);
     require_triangles(*surface);
     of_run.tolerance = tolerance * unit;
@@ -130,6 +134,10 @@ Identity identity_of(const std::vector<std::string>& inputs, const InputOptions&
                  fmt::format("effort: {}", static_cast<int>(options.effort)),
                  fmt::format("output: {}", target.output)};
   for (std::string& line : input_identity(inputs, input_options, target.field)) lines.push_back(std::move(line));
+  if (target.colours == nullptr) return lines;
+  lines.push_back(fmt::format("color tolerance: {}", options.color_tolerance));
+  for (std::string& line : colour_identity(options.color, *target.colours, target.field))
+    lines.push_back(std::move(line));
   return lines;
 }
 
@@ -162,11 +170,16 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
   require_mesh_extension(output);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(thread_count(options)));
+  if (!options.color.empty()) require_format_holds_colour(output, 1);
   const RasterField field(inputs, input_options);
-  const MemoryPlan memory = plan_memory(field, options.window, thread_count(options), options.memory);
+  std::optional<ColourRaster> colours;
+  if (!options.color.empty()) colours.emplace(options.color, field.frame(), field.width(), field.height());
+  if (colours) require_format_holds_colour(output, colours->n_channels());
+  const MemoryPlan memory = plan_memory(
+      field, {options.window, thread_count(options), options.memory, colours ? colours->n_channels() : 0});
   set_raster_cache(memory.raster_cache);
-  if (options.max_error) require_format_may_hold(field, output, options);
-  const Target target{field, field.frame(), output, memory.chunks};
+  const Target target{field, field.frame(), output, memory.chunks, colours ? &*colours : nullptr};
+  if (options.max_error) require_format_may_hold(field, output, options, target.colours);
   RunFolder folder(output, options.tmp, identity_of(inputs, input_options, options, target), options.fresh);
   CompressReport report;
   try {
@@ -188,6 +201,9 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
 
 Tin compress(const HeightArray& heights, const CompressOptions& options, CompressReport* report) {
   require_sensible(options);
+  if (!options.color.empty())
+    throw UsageError(
+        "heights in memory have no place on the earth, so no raster gives them colours; leave color empty");
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(thread_count(options)));
   const ArrayField field(heights.z, heights.width, heights.height);
@@ -195,7 +211,7 @@ Tin compress(const HeightArray& heights, const CompressOptions& options, Compres
   frame.geotransform = {-heights.step_x / 2, heights.step_x, 0, -heights.step_y / 2, 0, heights.step_y};
   CompressReport own;
   const auto surface = compress_field(
-      {field, frame, {}, 0}, options, [](double) { return std::string(); }, report ? *report : own);
+      {field, frame, {}}, options, [](double) { return std::string(); }, report ? *report : own);
   Tin tin;
   surface->for_each_vertex_block([&](TerrainSurface::VertexBlock block) {
     for (const TerrainVertex& vertex : block) {

@@ -20,6 +20,9 @@ void require_sensible(const CompressOptions& options) {
     throw UsageError(fmt::format("ratio is {}: it must be more than 0 and at most 1", *options.ratio));
   if (options.window < 4)
     throw UsageError(fmt::format("window is {}: it must be 4 samples or more", options.window));
+  if (!(options.color_tolerance > 0 && std::isfinite(options.color_tolerance)))
+    throw UsageError(
+        fmt::format("color_tolerance is {}: it must be a number of levels above 0", options.color_tolerance));
   if (options.threads < 0) throw UsageError(fmt::format("threads is {}: it must be 0 or more", options.threads));
 }
 

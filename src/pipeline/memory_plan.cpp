@@ -18,18 +18,24 @@ constexpr std::uint64_t kLeast = 16 * kMega;  // of the cache, and for chunks
 // reach beyond it in later rounds; and what the allocator keeps between windows.
 constexpr std::uint64_t kBytesPerSample = 450;
 
+// Colours: levels as they are warped and read, and with each vertex of the mesh, its chunk and the star at work.
+std::uint64_t bytes_per_sample(int n_channels) {
+  return kBytesPerSample + (n_channels > 0 ? 100 + 20 * static_cast<std::uint64_t>(n_channels) : 0);
+}
+
 std::string in_megabytes(std::uint64_t bytes) { return fmt::format("{}M", (bytes + kMega - 1) / kMega); }
 
 }  // namespace
 
-MemoryPlan plan_memory(const RasterField& field, std::int32_t window, int threads, std::uint64_t memory) {
+MemoryPlan plan_memory(const RasterField& field, const MemoryNeeds& needs) {
+  const auto [window, threads, memory, n_channels] = needs;
   MemoryPlan plan;
   plan.total = memory > 0 ? memory : machine_memory() / 4;
   plan.own = kOwn;
   const std::uint64_t side = static_cast<std::uint64_t>(window) + 3;
   const std::uint64_t samples = std::min(side, static_cast<std::uint64_t>(field.width())) *
                                 std::min(side, static_cast<std::uint64_t>(field.height()));
-  plan.windows = static_cast<std::uint64_t>(threads) * samples * kBytesPerSample;
+  plan.windows = static_cast<std::uint64_t>(threads) * samples * bytes_per_sample(n_channels);
   const std::uint64_t least = plan.own + plan.windows + 2 * kLeast;
   if (plan.total < least)
     throw ResourceError(fmt::format(

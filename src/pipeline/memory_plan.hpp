@@ -16,7 +16,14 @@ struct MemoryPlan {
   std::uint64_t chunks = 0;        // finished windows, before they are left to the disk
 };
 
-/// `memory` 0: a quarter of the machine's. Throws ResourceError when it can't suffice.
-MemoryPlan plan_memory(const RasterField& field, std::int32_t window, int threads, std::uint64_t memory);
+struct MemoryNeeds {
+  std::int32_t window = 0;   // samples along its side
+  int threads = 1;           // windows at a time
+  std::uint64_t memory = 0;  // bytes in all; 0: a quarter of the machine's
+  int n_channels = 0;        // of colour
+};
+
+/// Throws ResourceError when the memory can't suffice.
+MemoryPlan plan_memory(const RasterField& field, const MemoryNeeds& needs);
 
 }  // namespace tinsmith

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
+#include "io/colour_raster.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
 #include "judge/plan.hpp"
@@ -41,12 +43,13 @@ class ExpectedSurface : public TerrainSurface {
 struct Outset {
   const RasterField& field;
   const CompressOptions& options;
+  const ColourField* colours;  // null: none
   WindowGraph graph;
   std::vector<std::int64_t> windows;  // that may hold samples
 };
 
-Outset outset_of(const RasterField& field, const CompressOptions& options) {
-  Outset outset{field, options, WindowGraph(field.width(), field.height(), options.window), {}};
+Outset outset_of(const RasterField& field, const CompressOptions& options, const ColourField* colours) {
+  Outset outset{field, options, colours, WindowGraph(field.width(), field.height(), options.window), {}};
   outset.windows = windows_with_samples(field, outset.graph);
   return outset;
 }
@@ -76,7 +79,9 @@ Trial try_out(const Outset& outset, CompressPlan& plan) {
   double seconds = 0;
   plan.passes = 0;
   const auto run = [&](double tolerance, CompressReport& report) {
-    const RoundsOptions rounds{tolerance, outset.options.window, outset.options.placement, outset.options.effort};
+    RoundsOptions rounds{tolerance, outset.options.window, outset.options.placement, outset.options.effort};
+    rounds.colours = outset.colours;
+    rounds.colour.tolerance = outset.options.color_tolerance;
     last = try_windows(outset.field, outset.field.frame(), rects, rounds, outset.options.progress);
     seconds += last.seconds;
     ++plan.passes;
@@ -193,10 +198,11 @@ CompressPlan plan_of(const Outset& outset, const MemoryPlan& memory) {
 
 }  // namespace
 
-void require_format_may_hold(const RasterField& field, const std::string& output, const CompressOptions& options) {
+void require_format_may_hold(const RasterField& field, const std::string& output, const CompressOptions& options,
+                             const ColourField* colours) {
   const auto n_samples = static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height());
   if (holds(output, 2 * n_samples)) return;
-  const Outset outset = outset_of(field, options);
+  const Outset outset = outset_of(field, options, colours);
   CompressPlan plan;
   plan.threads = 1;
   try_out(outset, plan);
@@ -207,10 +213,15 @@ CompressPlan plan(const std::vector<std::string>& inputs, const std::string& out
                   const InputOptions& input_options, const CompressOptions& options) {
   require_sensible(options);
   require_mesh_extension(output);
+  if (!options.color.empty()) require_format_holds_colour(output, 1);
   const RasterField field(inputs, input_options);
-  const MemoryPlan memory = plan_memory(field, options.window, thread_count(options), options.memory);
+  std::optional<ColourRaster> colours;
+  if (!options.color.empty()) colours.emplace(options.color, field.frame(), field.width(), field.height());
+  const int n_channels = colours ? colours->n_channels() : 0;
+  require_format_holds_colour(output, n_channels);
+  const MemoryPlan memory = plan_memory(field, {options.window, thread_count(options), options.memory, n_channels});
   set_raster_cache(memory.raster_cache);
-  const Outset outset = outset_of(field, options);
+  const Outset outset = outset_of(field, options, colours ? &*colours : nullptr);
   CompressPlan plan = plan_of(outset, memory);
   const Trial trial = try_out(outset, plan);
   plan.tried_windows = trial.n_windows;

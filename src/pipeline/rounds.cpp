@@ -40,7 +40,9 @@ struct Finished {
   Finished(const HeightField& field, const RoundsOptions& options)
       : graph(field.width(), field.height(), options.window),
         store(graph, {options.folder, options.chunk_memory}),
-        surface(graph, [this](std::int64_t window) { return store.result(window); }) {}
+        surface(
+            graph, [this](std::int64_t window) { return store.result(window); },
+            options.colours ? options.colours->n_channels() : 0) {}
 
   WindowGraph graph;
   ChunkStore store;
@@ -116,7 +118,7 @@ class Run {
   void work_first(WindowName task) {
     if (workload_.is_void(task)) return store_.put_empty(task);
     const GridRect rect = graph_.samples(task);
-    FirstChunk result = first_chunk(field_, rect, window_options(frame_, rect, options_));
+    FirstChunk result = first_chunk(field_, rect, window_options(frame_, rect, options_), options_.colours);
     const WindowCounts counts{result.samples, result.valid_cells, result.start_triangles,
                               result.chunk.triangles.size()};
     store_.put(task, parts_of(task, std::move(result.chunk)), counts);
@@ -128,7 +130,8 @@ class Run {
     std::vector<const Chunk*> parts;
     parts.reserve(held.size());
     for (const auto& part : held) parts.push_back(part.get());
-    Chunk chunk = seam_chunk(field_, parts, window_options(frame_, graph_.samples(task), options_));
+    Chunk chunk =
+        seam_chunk(field_, parts, window_options(frame_, graph_.samples(task), options_), options_.colours);
     const WindowCounts counts{0, 0, 0, chunk.triangles.size()};
     store_.put(task, parts_of(task, std::move(chunk)), counts);
   }
@@ -200,7 +203,7 @@ void fill(CompressReport& report, const Finished& result, const Run& run) {
 WindowOptions window_options(const GridFrame& frame, const GridRect& window, const RoundsOptions& options) {
   const auto [step_x, step_y] =
       frame.metres_per_step(window.x0 + window.width / 2.0, window.y0 + window.height / 2.0);
-  return {options.tolerance, step_y / step_x, options.placement, options.effort};
+  return {options.tolerance, step_y / step_x, options.placement, options.effort, options.colour};
 }
 
 std::shared_ptr<const TerrainSurface> run_rounds(const HeightField& field, const GridFrame& frame,

@@ -7,6 +7,7 @@
 
 #include "geodesy/grid_frame.hpp"
 #include "mesh/terrain_mesh.hpp"
+#include "samples/colour_grid.hpp"
 #include "samples/height_grid.hpp"
 #include "stitch/window_task.hpp"
 #include "tinsmith/compress.hpp"
@@ -21,6 +22,8 @@ struct RoundsOptions {
   Effort effort = Effort::kDefault;
   std::string folder{};                  // where finished windows are kept, there already; empty: in memory only
   std::uint64_t chunk_memory = 1 << 26;  // bytes for chunks when there is a folder
+  const ColourField* colours = nullptr;  // to drape the surface with, on the grid of the field; null: none
+  ColourOptions colour{};
 };
 
 /// What the tasks on a window are done with.

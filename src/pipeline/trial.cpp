@@ -101,7 +101,7 @@ Trial try_windows(const HeightField& field, const GridFrame& frame, const std::v
   Trial trial;
   const auto start = std::chrono::steady_clock::now();
   for (const GridRect& window : windows) {
-    const FirstChunk result = first_chunk(field, window, window_options(frame, window, options));
+    const FirstChunk result = first_chunk(field, window, window_options(frame, window, options), options.colours);
     trial.triangles += triangles_without_seams(result.chunk, window);
     trial.cells += static_cast<double>(result.valid_cells);
     trial.first_triangles += static_cast<double>(result.chunk.triangles.size());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -41,6 +42,14 @@ when to stop, exactly one of:
   --triangles N        at most N triangles, with the least error that reaches it
   --ratio R            the same as a fraction of the full grid's triangles, above 0, at most 1
 
+colour:
+  --color FILE         a raster of 1 to 4 bands (grey, grey and alpha, RGB, RGBA) of any resolution and CRS, as the
+                       colours of the vertices, in .ply, .glb and .obj (without alpha); white where it has none. What
+                       colours need is kept too; --max-error is the same promise. The report has color_rmse and
+                       color_max_error, in levels of 255
+  --color-tolerance L  levels of 255, above 0 (default {}): no collapse makes the colours around it worse than this
+                       (root mean square); less keeps more triangles
+
 options:
   --placement P        where a vertex may lie: optimal (anywhere), segment (on the collapsed edge) or subset
                        (every vertex is a sample) (default optimal)
@@ -70,6 +79,7 @@ the report are metres, whatever the raster's units. The bytes written depend on 
 examples:
   tinsmith compress dem.tif dem.ply --max-error 5
   tinsmith compress north.tif south.tif both.glb --ratio 0.01
+  tinsmith compress dem.tif dem.glb --max-error 1 --color ortho.tif
   tinsmith compress @tiles.txt country.ply --max-error 1 --memory 2G --tmp /scratch --plan
   tinsmith compress dem.vrt dem.2dm --max-error 0.5 --bbox 380000 5090000 390000 5100000 --json report.json
 
@@ -83,6 +93,8 @@ struct Flags {
   std::optional<double> max_error;
   std::optional<double> triangles;
   std::optional<double> ratio;
+  std::string color;
+  std::optional<double> color_tolerance;
   std::string placement = "optimal";
   std::string effort = "default";
   int window = CompressOptions().window;
@@ -109,9 +121,21 @@ void require_one_stop(const Flags& flags) {
   if (flags.max_error) require_tolerance("--max-error", *flags.max_error);
 }
 
+void set_colour(const Flags& flags, CompressOptions& options) {
+  options.color = flags.color;
+  if (!flags.color_tolerance) return;
+  if (flags.color.empty())
+    throw UsageError("--color-tolerance: says nothing without colours; give them with --color FILE");
+  if (!(*flags.color_tolerance > 0 && std::isfinite(*flags.color_tolerance)))
+    throw UsageError(
+        fmt::format("--color-tolerance {}: give a number of levels of 255, above 0", *flags.color_tolerance));
+  options.color_tolerance = *flags.color_tolerance;
+}
+
 CompressOptions to_options(const Flags& flags) {
   require_one_stop(flags);
   CompressOptions options;
+  set_colour(flags, options);
   options.max_error = flags.max_error;
   options.triangles = flags.triangles;
   options.ratio = flags.ratio;
@@ -129,9 +153,12 @@ CompressOptions to_options(const Flags& flags) {
 }
 
 // All that can be found wrong with the outputs before the work.
-void require_usable_outputs(const std::vector<std::string>& inputs, const std::string& output,
-                            const std::string& json) {
+void require_usable_outputs(const Flags& flags, const std::string& output) {
+  std::vector<std::string> inputs = expand_lists(flags.files);
+  if (!flags.color.empty()) inputs.push_back(flags.color);
+  const std::string& json = flags.json;
   require_mesh_extension(output);
+  if (!flags.color.empty()) require_format_holds_colour(output, 1);
   require_other_than_inputs(output, inputs);
   require_writable(output);
   if (json.empty() || json == "-") return;
@@ -182,8 +209,8 @@ int compress_rasters(Flags flags) {
   CompressOptions options = to_options(flags);
   const ProgressForm progress = choose_progress(flags.progress, flags.quiet);
   require_rasters(flags.files, "tinsmith compress INPUT... OUTPUT");
-  require_usable_outputs(expand_lists(flags.files), output, flags.json);
-  const OpenedInputs inputs = open_inputs(flags.files, input_options);
+  require_usable_outputs(flags, output);
+  const OpenedInputs inputs = open_inputs(flags.files, input_options, flags.color);
   print_remarks(inputs.remarks, flags.quiet);
   options.progress = make_progress(progress, inputs.n_samples);
   if (flags.plan) return plan_run(flags, output, input_options, options);
@@ -194,10 +221,10 @@ int compress_rasters(Flags flags) {
   add_compression(report, compressed, output);
   add_remarks(report, inputs.remarks);
   if (!flags.no_verify) {
-    add_certificate(
-        report,
-        verify(flags.files, output, input_options, {flags.threads, options.memory, flags.tmp, options.progress}),
-        compressed.tolerance);
+    add_certificate(report,
+                    verify(flags.files, output, input_options,
+                           {flags.threads, options.memory, flags.tmp, options.progress, flags.color}),
+                    compressed.tolerance);
     report["verify_seconds"] = resources_so_far().seconds - report["seconds"].get<double>();
   }
   options.progress = {};  // ends the line of the bar
@@ -211,12 +238,14 @@ int compress_rasters(Flags flags) {
 
 void add_compress(CLI::App& program, Run& run) {
   CLI::App& verb = *program.add_subcommand("compress");
-  set_manual(verb, fmt::format(kManual, CompressOptions().window));
+  set_manual(verb, fmt::format(kManual, CompressOptions().color_tolerance, CompressOptions().window));
   auto flags = std::make_shared<Flags>();
   verb.add_option("INPUT... OUTPUT", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
   verb.add_option("--max-error", flags->max_error);
   verb.add_option("--triangles", flags->triangles);
   verb.add_option("--ratio", flags->ratio);
+  verb.add_option("--color", flags->color);
+  verb.add_option("--color-tolerance", flags->color_tolerance);
   verb.add_option("--placement", flags->placement);
   verb.add_option("--effort", flags->effort);
   verb.add_option("--window", flags->window);

@@ -32,6 +32,9 @@ void print_errors(const Json& report) {
                    report["max_error_column"].get<double>(), report["max_error_row"].get<double>()));
   line("rmse", fmt::format("{}, mean {}, 99 % within {}", metres(report["rmse"]), metres(report["mean_error"]),
                            metres(report["p99_error"])));
+  if (report["color_rmse"].is_null()) return;
+  line("colour", fmt::format("rmse {:.4g}, largest difference {:.4g} of 255 levels",
+                             report["color_rmse"].get<double>(), report["color_max_error"].get<double>()));
 }
 
 void print_cost(const Json& report) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "io/colour_raster.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
 #include "text.hpp"
@@ -30,13 +31,17 @@ std::uint64_t samples_of(const RasterField& field) {
 
 }  // namespace
 
-OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options) {
+OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options,
+                         const std::string& color) {
   const RasterField field(paths, options);
   OpenedInputs opened;
   opened.n_samples = samples_of(field);
   const std::optional<std::string> overlaps = field.remark_on_overlaps();  // may find damage, which remarks() tells
   opened.remarks = field.remarks();
   if (overlaps) opened.remarks.push_back(*overlaps);
+  if (color.empty()) return opened;
+  const ColourRaster colours(color, field.frame(), field.width(), field.height());
+  if (const auto remark = colours.remark()) opened.remarks.push_back(*remark);
   return opened;
 }
 

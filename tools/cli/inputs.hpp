@@ -14,9 +14,10 @@ struct OpenedInputs {
   std::vector<std::string> remarks;  // what the user should be told once
 };
 
-/// Opens the rasters as one grid and compares them where they overlap, so that what is wrong with them is said at
-/// once. Throws InputError.
-OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options);
+/// Opens the rasters as one grid, and the raster of colours on it if its path is not empty, and compares them where
+/// they overlap, so that what is wrong with them is said at once. Throws InputError.
+OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options,
+                         const std::string& color);
 
 /// Remarks on standard error, one line each.
 void print_remarks(const std::vector<std::string>& remarks, bool quiet);

@@ -31,6 +31,9 @@ const std::map<std::string, const char*>& units() {
                                                                {"area_plan", "m2"},
                                                                {"area_valid", "m2"},
                                                                {"rounding", "m"},
+                                                               {"color_samples", "samples"},
+                                                               {"color_rmse", "levels of 255"},
+                                                               {"color_max_error", "levels of 255"},
                                                                {"seconds", "s"},
                                                                {"bytes", "bytes"},
                                                                {"peak_memory_bytes", "bytes"},
@@ -57,10 +60,12 @@ Resources resources_so_far() {
 
 Json empty_report(const std::vector<std::string>& inputs, const std::string& output) {
   Json report;
-  for (const char* key : {"samples",   "covered",    "uncovered", "vertices", "triangles",          "max_error",
-                          "rmse",      "mean_error", "p99_error", "folded",   "non_manifold_edges", "t_junctions",
-                          "area_plan", "components", "bytes",     "seconds",  "peak_memory_bytes",  "threads",
-                          "windows",   "version",    "input",     "output",   "tolerance"})
+  for (const char* key :
+       {"samples",        "covered",    "uncovered", "vertices", "triangles",          "max_error",
+        "rmse",           "mean_error", "p99_error", "folded",   "non_manifold_edges", "t_junctions",
+        "area_plan",      "components", "bytes",     "seconds",  "peak_memory_bytes",  "threads",
+        "windows",        "version",    "input",     "output",   "tolerance",          "color_rmse",
+        "color_max_error"})
     report[key] = nullptr;
   report["version"] = version();
   report["input"] = inputs;
@@ -89,6 +94,11 @@ void add_certificate(Json& report, const Certificate& c, std::optional<double> t
   report["max_error_column"] = c.max_error_column;
   report["max_error_row"] = c.max_error_row;
   report["rounding"] = c.rounding;
+  if (c.color_samples > 0) {
+    report["color_samples"] = c.color_samples;
+    report["color_rmse"] = c.color_rmse;
+    report["color_max_error"] = c.color_max_error;
+  }
   if (tolerance) report["tolerance"] = *tolerance;
   report["broken"] = c.broken_promises(tolerance.value_or(-1));
   report["holds"] = report["broken"].empty();

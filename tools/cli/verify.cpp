@@ -33,6 +33,7 @@ as it is, and nothing of what made it is trusted. Prints a table of key, value a
 
 options:
   --max-error M        the tolerance that no sample may exceed, in metres, 0 or more
+  --color FILE         the raster that the mesh has its colours from: how far they are off is measured too
 )" TINSMITH_INPUT_MANUAL
     R"(  --json FILE          the report as one JSON object; - prints it to standard output and nothing else
   --threads N          threads to use; default: all of the machine; the certificate does not depend on it
@@ -52,6 +53,8 @@ keys:
   area_plan, area_valid   of the triangles and of the valid cells, in plan, in square metres
   components           parts of the mesh that no edge connects
   rounding             what double precision alone may add to an error
+  color_samples        with --color: samples with a colour, in or on a triangle
+  color_rmse, color_max_error   of the differences there, over red, green, blue and alpha, in levels of 255
   Heights and errors are in metres, whatever the units of the raster.
 
 The mesh holds when no error exceeds the tolerance (if given), every coverable sample is covered once, no
@@ -59,6 +62,7 @@ triangle is folded, the mesh is a manifold with border and without T-junctions, 
 
 examples:
   tinsmith verify dem.tif dem.ply --max-error 10
+  tinsmith verify dem.tif dem.glb --color ortho.tif
   tinsmith verify north.tif south.tif both.glb --json report.json
 
 exit codes: 0 it holds; 1 it does not, standard error says what; 2 wrong usage; 3 an input can't be used;
@@ -69,6 +73,7 @@ scratch file can't be written; 5 out of memory or of room for scratch files; 130
 struct Flags {
   std::vector<std::string> files;
   std::optional<double> max_error;
+  std::string color;
   InputFlags input;
   int threads = 0;
   std::string memory;
@@ -87,6 +92,7 @@ VerifyOptions to_options(const Flags& flags) {
   if (!flags.tmp.empty() && !std::filesystem::is_directory(flags.tmp))
     throw UsageError(fmt::format("--tmp {}: no such folder; make it or name another", flags.tmp));
   options.tmp = flags.tmp;
+  options.color = flags.color;
   return options;
 }
 
@@ -104,7 +110,7 @@ int verify_mesh(Flags flags) {
     require_writable(flags.json);
   }
   if (verify_options.memory > 0) set_raster_cache(verify_options.memory / 8);
-  const OpenedInputs inputs = open_inputs(flags.files, options);
+  const OpenedInputs inputs = open_inputs(flags.files, options, flags.color);
   print_remarks(inputs.remarks, flags.quiet);
   verify_options.progress = make_progress(progress, inputs.n_samples);
   const Certificate certificate = verify(flags.files, mesh, options, verify_options);
@@ -133,6 +139,7 @@ void add_verify(CLI::App& program, Run& run) {
   auto flags = std::make_shared<Flags>();
   verb.add_option("INPUT... MESH", flags->files)->required()->expected(2, CLI::detail::expected_max_vector_size);
   verb.add_option("--max-error", flags->max_error);
+  verb.add_option("--color", flags->color);
   add_input_flags(verb, flags->input);
   verb.add_option("--threads", flags->threads);
   verb.add_option("--memory", flags->memory);
