@@ -2,6 +2,7 @@
 // DEM in, TIN out.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,13 +28,19 @@ struct CompressReport {
   std::vector<std::string> remarks;            // what the user should be told once
 };
 
+/// Called when the output stands under its name and the unfinished work is still there: when it throws, the same
+/// call of compress() goes on from that. For verify(), which is long.
+using WhenWritten = std::function<void(const CompressReport& report)>;
+
 /// Reads the rasters as one grid, compresses them and writes `output` (.ply .obj .glb .2dm). The bytes
 /// written depend on the inputs and options only, not on threads. A raster `color` of 1 to 4 bands, in any CRS and
 /// resolution, gives the vertices colours (not in .2dm, .obj without alpha), which weigh in what is kept; the
 /// largest vertical error is the same promise. Where it has none they are white. Throws one of tinsmith/error.hpp;
-/// then what stood at `output` before still stands there. The caller measures the result with verify().
+/// then what stood at `output` before still stands there, unless it was `when_written` that threw. The caller
+/// measures the result with verify().
 CompressReport compress(const std::vector<std::string>& inputs, const std::string& output,
-                        const InputOptions& input_options, const CompressOptions& options);
+                        const InputOptions& input_options, const CompressOptions& options,
+                        const WhenWritten& when_written = {});
 
 /// A grid of heights in memory: row by row, width * height of them, NaN is a void. Steps in metres.
 struct HeightArray {

@@ -64,6 +64,13 @@ std::string read_from_file(const std::string& path, std::uint64_t offset, std::u
   return bytes;
 }
 
+bool is_named(int descriptor, const std::string& name) {
+  struct stat file {};
+  struct stat named {};
+  return fstat(descriptor, &file) == 0 && lstat(name.c_str(), &named) == 0 && file.st_dev == named.st_dev &&
+         file.st_ino == named.st_ino;
+}
+
 std::uint64_t file_size_or_zero(const std::string& path) {
   struct stat status {};
   return stat(path.c_str(), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/disk.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
@@ -60,14 +61,6 @@ bool is_temporary(std::string_view name, std::string_view prefix) {
   const std::string_view numbers = name.substr(prefix.size(), name.size() - prefix.size() - kSuffix.size());
   return numbers.find_first_not_of("0123456789-") == std::string_view::npos &&
          std::count(numbers.begin(), numbers.end(), '-') == 1;
-}
-
-/// Whether the file still bears this name.
-bool is_named(int descriptor, const std::string& name) {
-  struct stat file {};
-  struct stat named {};
-  return fstat(descriptor, &file) == 0 && lstat(name.c_str(), &named) == 0 && file.st_dev == named.st_dev &&
-         file.st_ino == named.st_ino;
 }
 
 /// Removes the file unless a writer holds it. Only who has the lock renames or removes a temporary file, hence the

@@ -163,7 +163,8 @@ void compress_and_write(const Target& target, const CompressOptions& options, co
 }  // namespace
 
 CompressReport compress(const std::vector<std::string>& inputs, const std::string& output,
-                        const InputOptions& input_options, const CompressOptions& asked) {
+                        const InputOptions& input_options, const CompressOptions& asked,
+                        const WhenWritten& when_written) {
   CompressOptions options = asked;
   options.progress = never_falling(asked.progress);
   require_sensible(options);
@@ -184,6 +185,9 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
   CompressReport report;
   try {
     compress_and_write(target, options, folder, report);
+    for (std::string& remark : field.remarks()) report.remarks.push_back(std::move(remark));
+    report.unreadable_inputs = field.n_unreadable();
+    if (when_written) when_written(report);
   } catch (const UnreadableError&) {
     throw;  // what was read is of use when the rest can be read again
   } catch (const InputError&) {
@@ -194,8 +198,6 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
     throw;
   }
   folder.remove();
-  for (std::string& remark : field.remarks()) report.remarks.push_back(std::move(remark));
-  report.unreadable_inputs = field.n_unreadable();
   return report;
 }
 

@@ -32,6 +32,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// After a stop there may be many windows to weld before the first task.
+constexpr int kWindowsBetweenLooks = 64;
+
 // How often a run begins anew, from what is whole, because a chunk was found damaged: then the disk is no good.
 constexpr int kMostRestarts = 100;
 
@@ -148,8 +151,10 @@ class Run {
     const std::unique_lock lock(weld_mutex_, std::try_to_lock);
     if (!lock) return;
     const int last = graph_.last_round();
-    while (surface_.n_added() < graph_.windows(last).count() && store_.is_done({last, surface_.n_added()}))
+    while (surface_.n_added() < graph_.windows(last).count() && store_.is_done({last, surface_.n_added()})) {
       surface_.add_next();
+      if (surface_.n_added() % kWindowsBetweenLooks == 0) tell();
+    }
   }
 
   void tell() {
@@ -198,6 +203,12 @@ void fill(CompressReport& report, const Finished& result, const Run& run) {
   }
 }
 
+// A loss is found anew each time a run begins anew.
+void remark_once(CompressReport& report, const std::string& remark) {
+  if (std::find(report.remarks.begin(), report.remarks.end(), remark) == report.remarks.end())
+    report.remarks.push_back(remark);
+}
+
 }  // namespace
 
 WindowOptions window_options(const GridFrame& frame, const GridRect& window, const RoundsOptions& options) {
@@ -211,6 +222,7 @@ std::shared_ptr<const TerrainSurface> run_rounds(const HeightField& field, const
                                                  CompressReport& report) {
   for (int restarts = 0;; ++restarts) {
     const auto result = std::make_shared<Finished>(field, options);
+    for (const std::string& loss : result->store.losses()) remark_once(report, loss + "; computed anew");
     Run run(field, frame, options, progress, *result);
     try {
       run();
@@ -218,7 +230,7 @@ std::shared_ptr<const TerrainSurface> run_rounds(const HeightField& field, const
       return {result, &result->surface};
     } catch (const DamagedChunk& damage) {
       if (restarts == kMostRestarts) throw OutputError(std::string(damage.what()) + "; choose another --tmp");
-      report.remarks.push_back(std::string(damage.what()) + "; computed anew");
+      remark_once(report, std::string(damage.what()) + "; computed anew");
     }
   }
 }

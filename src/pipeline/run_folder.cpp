@@ -56,21 +56,24 @@ std::string difference(const Identity& was, const Identity& now) {
 
 RunFolder::RunFolder(const std::string& output, const std::string& tmp, const Identity& identity, bool fresh)
     : path_(folder_for(output, tmp)) {
-  std::error_code error;
-  fs::create_directories(path_, error);
-  if (error)
-    throw OutputError(
-        fmt::format("{}: can't be made: {}; choose another folder with --tmp", path_, error.message()));
-  lock_.emplace(path_ + "/" + kLock, output);
+  do {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    if (error)
+      throw OutputError(
+          fmt::format("{}: can't be made: {}; choose another folder with --tmp", path_, error.message()));
+    lock_.emplace(path_ + "/" + kLock, output);
+  } while (!lock_->is_there());
   take_over(identity, fresh);
 }
 
 RunFolder::Lock::Lock(const std::string& file, const std::string& output)
-    : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    : file_(file), descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0)
     throw OutputError(fmt::format("{}: can't be written: {}; choose another folder with --tmp", file,
                                   std::generic_category().message(errno)));
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  // Any other failure: a file system without locks.
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(descriptor_);
   throw OutputError(fmt::format(
       "{}: another run is at work on it (it holds {}); wait for it, or choose another output", output, file));
@@ -78,29 +81,46 @@ RunFolder::Lock::Lock(const std::string& file, const std::string& output)
 
 RunFolder::Lock::~Lock() { close(descriptor_); }
 
+bool RunFolder::Lock::is_there() const { return is_named(descriptor_, file_); }
+
 void RunFolder::take_over(const Identity& identity, bool fresh) {
   const std::string file = path_ + "/" + kIdentity;
   const std::string was = read_from_file(file, 0, file_size_or_zero(file));
   const std::string now = text_of(identity);
   if (was == now && !fresh) return;
-  if (!was.empty() && was != now && !fresh) {
-    const std::string what = difference(lines_of(was), lines_of(now));
+  if (was != now && !fresh && has_work()) {
+    const std::string what =
+        was.empty() ? "options that can't be read any more" : difference(lines_of(was), lines_of(now));
     throw UsageError(
         fmt::format("{}: holds the work of an unfinished run with {}; give --fresh to throw that away, or what it "
                     "was given to go on",
                     path_, what));
   }
-  for (const auto& entry : fs::directory_iterator(path_)) {
-    if (entry.path().filename() != kLock) fs::remove_all(entry.path());
-  }
+  make_empty();
   append_to_file(file, now);
 }
 
-RunFolder::~RunFolder() {
+bool RunFolder::has_work() const {
   std::error_code error;
-  bool has_work = false;
-  for (const auto& entry : fs::directory_iterator(path_, error)) has_work = has_work || entry.is_directory();
-  if (!has_work) fs::remove_all(path_, error);
+  for (fs::directory_iterator entry(path_, error); !error && entry != fs::end(entry); entry.increment(error)) {
+    if (entry->is_directory(error) && entry->path().filename() != kIdentity) return true;
+  }
+  return false;
+}
+
+void RunFolder::make_empty() {
+  std::error_code error;
+  for (fs::directory_iterator entry(path_, error); !error && entry != fs::end(entry); entry.increment(error)) {
+    if (entry->path().filename() != kLock) fs::remove_all(entry->path(), error);
+    if (error) break;
+  }
+  if (error)
+    throw OutputError(fmt::format("{}: an earlier run's work can't be removed: {}; remove this folder yourself",
+                                  path_, error.message()));
+}
+
+RunFolder::~RunFolder() {
+  if (!has_work()) remove();
 }
 
 std::string RunFolder::subfolder(const std::string& name) const {

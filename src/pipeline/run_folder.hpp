@@ -16,7 +16,7 @@ using Identity = std::vector<std::string>;
 class RunFolder {
  public:
   /// Takes over what is there when the identity is the same, or `fresh` says that it is to be thrown away.
-  /// Throws UsageError when it is another run's, OutputError when it is in use or can't be made.
+  /// Throws UsageError when it is another run's, OutputError when it is in use or can't be made or emptied.
   RunFolder(const std::string& output, const std::string& tmp, const Identity& identity, bool fresh);
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
@@ -37,10 +37,16 @@ class RunFolder {
     Lock& operator=(const Lock&) = delete;
     ~Lock();
 
+    /// Not when the run that held it before has removed it meanwhile.
+    bool is_there() const;
+
    private:
+    std::string file_;
     int descriptor_;
   };
   void take_over(const Identity& identity, bool fresh);
+  bool has_work() const;
+  void make_empty();
 
   std::string path_;
   std::optional<Lock> lock_;

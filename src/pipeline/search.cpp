@@ -53,6 +53,7 @@ std::shared_ptr<const TerrainSurface> search_tolerance(const RunAtTolerance& run
   std::optional<double> tolerance = kStart;
   for (int i = 0; tolerance && i < kMostRuns; ++i) {
     CompressReport now;
+    now.remarks = report.remarks;  // each attempt may have found damage
     auto surface = run(*tolerance, now);
     const double limit = triangles ? *triangles : *ratio * static_cast<double>(now.full_triangles);
     const Tried tried{*tolerance, static_cast<double>(surface->extent().n_triangles)};
@@ -62,6 +63,7 @@ std::shared_ptr<const TerrainSurface> search_tolerance(const RunAtTolerance& run
       report = std::move(now);
     } else {
       fine = tried;
+      report.remarks = std::move(now.remarks);
     }
     tolerance = next_tolerance(fine, coarse, limit);
   }

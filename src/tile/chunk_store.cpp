@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -130,6 +131,7 @@ void ChunkStore::load() {
   append_word(magic, kMagic);
   std::vector<std::map<std::int64_t, Entry>> entries(at(graph_.n_rounds()));
   std::size_t i = 0;
+  std::size_t n_whole = 0;  // bytes
   while ((i = index.find(magic, i)) != std::string::npos) {
     auto found = Entry::from(std::string_view(index).substr(i));
     if (!found) {
@@ -138,6 +140,7 @@ void ChunkStore::load() {
     }
     auto& [entry, size] = *found;
     i += size;
+    n_whole += size;
     const WindowName task = entry.task;
     if (task.round < 0 || task.round >= graph_.n_rounds() || task.window < 0 ||
         task.window >= graph_.windows(task.round).count())
@@ -146,22 +149,33 @@ void ChunkStore::load() {
     of_round.erase(task.window);
     if (!entry.is_damaged) of_round.emplace(task.window, std::move(entry));
   }
+  if (index.empty() && !std::filesystem::is_empty(options_.folder)) losses_.push_back(path + ": is missing");
+  if (n_whole < index.size())
+    losses_.push_back(path + ": " + std::to_string(index.size() - n_whole) + " bytes are damaged");
   settle_loaded(entries);
+}
+
+bool ChunkStore::is_whole(const Entry& entry) const {
+  const std::uint64_t size = file_size_or_zero(row_file(entry.task));
+  return std::all_of(entry.parts.begin(), entry.parts.end(), [&](const Part& part) {
+    return part.offset + part.bytes <= size || is_read(entry.task, part.window);
+  });
 }
 
 // A task counts as done when the parts that are still to be read are there. From the last round to the first: what
 // turns out to be missing makes the tasks before it needed again.
 void ChunkStore::settle_loaded(const std::vector<std::map<std::int64_t, Entry>>& entries) {
+  std::map<std::string, int> n_lost;  // windows, by file
   for (int r = graph_.last_round(); r >= 0; --r) {
-    for (const auto& window_and_entry : entries[at(r)]) {
-      const Entry& entry = window_and_entry.second;
-      const std::uint64_t size = file_size_or_zero(row_file(entry.task));
-      const bool is_whole = std::all_of(entry.parts.begin(), entry.parts.end(), [&](const Part& part) {
-        return part.offset + part.bytes <= size || is_read(entry.task, part.window);
-      });
-      if (is_whole) round(r).is_done[at(entry.task.window)] = 1;
+    for (const auto& [window, entry] : entries[at(r)]) {
+      if (is_whole(entry))
+        round(r).is_done[at(window)] = 1;
+      else
+        ++n_lost[row_file(entry.task)];
     }
   }
+  for (const auto& [file, n] : n_lost)
+    losses_.push_back(file + ": the results of " + std::to_string(n) + " windows are missing");
   for (int r = 0; r < graph_.n_rounds(); ++r) {
     for (const auto& [window, entry] : entries[at(r)]) {
       if (!round(r).is_done[at(window)]) continue;

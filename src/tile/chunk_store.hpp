@@ -48,6 +48,9 @@ class ChunkStore {
   /// Takes what an earlier run left in the folder. The graph must outlive the store. Throws OutputError.
   ChunkStore(const WindowGraph& graph, const ChunkStoreOptions& options);
 
+  /// What an earlier run had finished and is not whole any more, a line each.
+  const std::vector<std::string>& losses() const { return losses_; }
+
   bool is_done(WindowName task) const;
   WindowCounts counts(int round) const;  // of the tasks that are done
 
@@ -95,6 +98,7 @@ class ChunkStore {
   bool is_read(WindowName task, std::int64_t reader) const;
 
   void load();
+  bool is_whole(const Entry& entry) const;
   void settle_loaded(const std::vector<std::map<std::int64_t, Entry>>& entries);
   void write(WindowName task, std::vector<Part>& parts, const WindowCounts& counts,
              const std::vector<ChunkPart>& chunks);
@@ -107,6 +111,7 @@ class ChunkStore {
   ChunkStoreOptions options_;
   mutable std::mutex mutex_;
   std::mutex disk_;  // one appends at a time
+  std::vector<std::string> losses_;
   std::array<Round, kRounds> rounds_;
   std::uint64_t in_memory_ = 0;
 };

@@ -23,11 +23,20 @@ struct Outcome {
   int exit_code = -1;  // -1: ended by a signal
   std::string out;
   std::string err;
+  double cpu_seconds = 0;  // user and system
+  double peak_bytes = 0;
+};
+
+/// A program at work; what it says goes to files of this name.
+struct Running {
+  pid_t process = -1;
+  std::string name;
 };
 
 struct Limits {
-  std::optional<rlim_t> file_size;  // bytes: the disk is full when a file is as large
-  int signal_after_ms = 0;          // with SIGINT, once; 0: never
+  std::optional<rlim_t> file_size{};  // bytes: the disk is full when a file is as large
+  int signal_after_ms = 0;            // with SIGINT, once; 0: never
+  std::optional<uid_t> user{};        // for whom the superuser runs it
 };
 
 inline std::string text_of(const std::string& path) {
@@ -44,17 +53,32 @@ inline void send_output_to(const std::string& path, int descriptor) {
 class CliTest : public RasterTest {
  protected:
   /// The words of a command line after the program's name.
-  Outcome run(std::vector<std::string> words, const Limits& limits = {}) const {
-    words.insert(words.begin(), TINSMITH_BINARY_DIR "/tinsmith");
-    const pid_t child = fork();
-    if (child == 0) become_program(words, limits);
+  Outcome run(const std::vector<std::string>& words, const Limits& limits = {}) const {
+    const Running running = start(words, limits);
     if (limits.signal_after_ms > 0) {
       usleep(static_cast<useconds_t>(limits.signal_after_ms) * 1000);
-      kill(child, SIGINT);
+      kill(running.process, SIGINT);
     }
+    return wait_for(running);
+  }
+
+  Running start(std::vector<std::string> words, const Limits& limits = {}, const std::string& name = "said") const {
+    words.insert(words.begin(), TINSMITH_BINARY_DIR "/tinsmith");
+    const pid_t child = fork();
+    if (child == 0) become_program(words, limits, name);
+    return {child, name};
+  }
+
+  Outcome wait_for(const Running& running) const {
     int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(said("out")), text_of(said("err"))};
+    rusage usage{};
+    wait4(running.process, &status, 0, &usage);
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+    };
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(said(running.name, "out")),
+            text_of(said(running.name, "err")), seconds(usage.ru_utime) + seconds(usage.ru_stime),
+            static_cast<double>(usage.ru_maxrss) * 1024};
   }
 
   /// A smooth hill of size x size samples of 30 m.
@@ -103,11 +127,13 @@ class CliTest : public RasterTest {
   }
 
  private:
-  std::string said(const char* stream) const { return path(std::string("said.") + stream); }
+  std::string said(const std::string& name, const char* stream) const { return path(name + "." + stream); }
 
-  [[noreturn]] void become_program(const std::vector<std::string>& words, const Limits& limits) const {
-    send_output_to(said("out"), STDOUT_FILENO);
-    send_output_to(said("err"), STDERR_FILENO);
+  [[noreturn]] void become_program(const std::vector<std::string>& words, const Limits& limits,
+                                   const std::string& name) const {
+    send_output_to(said(name, "out"), STDOUT_FILENO);
+    send_output_to(said(name, "err"), STDERR_FILENO);
+    if (limits.user && setuid(*limits.user) != 0) _exit(126);
     if (limits.file_size) {
       const rlimit limit{*limits.file_size, *limits.file_size};
       setrlimit(RLIMIT_FSIZE, &limit);

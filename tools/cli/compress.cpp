@@ -85,7 +85,7 @@ examples:
 
 exit codes: 0 done; 1 the certificate does not hold, or there is no such result; 2 wrong usage; 3 an input can't be
 used; 4 an output can't be written; 5 memory or the format does not suffice; 130 interrupted. Unless the exit code
-is 0 or 1, what stood at OUTPUT before still stands there.
+is 0 or 1, or it says that OUTPUT is written, what stood there before still stands there.
 )";
 
 struct Flags {
@@ -202,6 +202,22 @@ int plan_run(const Flags& flags, const std::string& output, const InputOptions& 
   return 0;
 }
 
+Certificate verify_output(const Flags& flags, const std::string& output, const InputOptions& input_options,
+                          const CompressOptions& options) {
+  try {
+    return verify(flags.files, output, input_options,
+                  {flags.threads, options.memory, flags.tmp, options.progress, flags.color});
+  } catch (const Interrupted&) {
+    throw Interrupted(fmt::format(
+        "interrupted; {} is written, but not verified yet: the same command goes on from here", output));
+  }
+}
+
+std::vector<std::string> without(std::vector<std::string> remarks, const std::vector<std::string>& told) {
+  std::erase_if(remarks, [&](const auto& one) { return std::find(told.begin(), told.end(), one) != told.end(); });
+  return remarks;
+}
+
 int compress_rasters(Flags flags) {
   const std::string output = flags.files.back();
   flags.files.pop_back();
@@ -214,20 +230,24 @@ int compress_rasters(Flags flags) {
   print_remarks(inputs.remarks, flags.quiet);
   options.progress = make_progress(progress, inputs.n_samples);
   if (flags.plan) return plan_run(flags, output, input_options, options);
-  const CompressReport compressed = compress(flags.files, output, input_options, options);
+  double seconds = 0;
+  std::optional<Certificate> certificate;
+  const CompressReport compressed =
+      compress(flags.files, output, input_options, options, [&](const CompressReport&) {
+        seconds = resources_so_far().seconds;
+        if (!flags.no_verify) certificate = verify_output(flags, output, input_options, options);
+      });
+  options.progress = {};  // ends the line of the bar
+  print_remarks(without(compressed.remarks, inputs.remarks), flags.quiet);
   Json report = empty_report(flags.files, output);
   report["threads"] = threads_used(flags.threads);
-  report["seconds"] = resources_so_far().seconds;
+  report["seconds"] = seconds;
   add_compression(report, compressed, output);
   add_remarks(report, inputs.remarks);
-  if (!flags.no_verify) {
-    add_certificate(report,
-                    verify(flags.files, output, input_options,
-                           {flags.threads, options.memory, flags.tmp, options.progress, flags.color}),
-                    compressed.tolerance);
-    report["verify_seconds"] = resources_so_far().seconds - report["seconds"].get<double>();
+  if (certificate) {
+    add_certificate(report, *certificate, compressed.tolerance);
+    report["verify_seconds"] = resources_so_far().seconds - seconds;
   }
-  options.progress = {};  // ends the line of the bar
   report["peak_memory_bytes"] = resources_so_far().peak_memory_bytes;
   if (!flags.json.empty()) write_json(report, flags.json);
   if (flags.json != "-") print_summary(report, flags.verbose);
