@@ -14,10 +14,9 @@
 
 namespace tinsmith {
 
-/// How geometry and attributes share a quadric. Measured on a scan of 43 200 triangles with a checkered colour, at
-/// 20 %: RMS errors of colour and geometry, relative to a simplification that ignores the colour, are 0.81 and 1.02
-/// for separate quadrics (weight 1), 0.32 and 1.10 for combined ones (1e-5) and 0.32 and 1.10 for gradients (1e-5);
-/// with smooth colours at 5 % 0.99, 0.80 and 0.80 at the same geometry. Combined quadrics take twice as long.
+/// How geometry and attributes share a quadric. tools/bench/surface/RESULTS.md has the errors of colour and
+/// geometry of all three. At their default weights combined quadrics and gradients give the same but for rounding;
+/// separate ones, blind to where a value lies, lose up to two thirds more shape.
 enum class QuadricForm {
   kSeparate,  // one each, in three dimensions: 20 coefficients with one attribute (the paper, eq. 25-28)
   kCombined,  // one in six dimensions: 28 coefficients (Garland and Heckbert 1998)
@@ -34,11 +33,12 @@ struct SimplifySurfaceOptions {
   bool area_weights = true;
   bool half_space = true;  // eq. 12-24: no triangle may turn over
   // With optimal placement, at the end: vertices and values move to the best fit of the input's vertices, which
-  // takes a fifth to a third off the RMS distance. Nothing turns over; features stay.
+  // takes a tenth to a third off the RMS distance. The largest distance may grow: on noisy scans with thin parts
+  // (head, brain in the benchmark) up to 2.6 times CGAL's. Nothing turns over; features stay.
   bool fit = true;
   QuadricForm quadric = QuadricForm::kGradient;
   // alpha of Cost = E_g + alpha E_c, the geometry in units of its largest extent; 0: attributes follow and cost
-  // nothing. Default: 1 for separate quadrics, 5e-6 for the others.
+  // nothing. Default: 1 for separate quadrics, 3e-7 for the others.
   std::optional<double> attribute_weight;
   std::optional<double> crease;  // degrees: edges whose triangles meet at more than that are features
   bool keep_seams = true;  // edges along which colours or normals differ are features; false: one side's remain

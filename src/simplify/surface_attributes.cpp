@@ -52,9 +52,14 @@ void put_in_range(const WedgeValues& all, std::span<double> values) {
   }
 }
 
+// Of a bunny with a checkered or smooth colour the errors, as multiples of those of the geometry alone: with 3e-7
+// the colour's is 0.76 and 0.70 at 20 %, 0.90 and 0.55 at 5 %, 0.97 and 0.47 at 1 % of the triangles, the distance
+// at most 1.08. With 1e-6 the distance is 1.18, with 2e-7 the colour's 0.78 at 20 %.
+constexpr double kWeightBesideGeometry = 3e-7;
+
 double attribute_weight(const SimplifySurfaceOptions& options) {
   if (options.attribute_weight) return *options.attribute_weight;
-  return options.quadric == QuadricForm::kSeparate ? 1 : 5e-6;
+  return options.quadric == QuadricForm::kSeparate ? 1 : kWeightBesideGeometry;
 }
 
 double triangle_weight(const SurfaceMesh& mesh, std::int32_t h, bool area_weights) {

@@ -55,7 +55,7 @@ options:
                          paper), combined (one in all dimensions) or gradient (values as linear functions of the
                          place) (default {})
   --attribute-weight A   how much the values at the vertices count beside the shape, whose largest extent is 1; 0: they
-                         follow (default: 1 for separate, 5e-6 for the others)
+                         follow (default: 1 for separate, 3e-7 for the others)
   --crease D             edges whose triangles meet at more than D degrees are features; 0 to 180 (default: none)
   --no-seams             edges along which colours or normals differ are no features
   --feature-edges FILE   more features: text, one edge a line as two vertex numbers of the input, from 0 in the order
