@@ -140,8 +140,8 @@ bool find_step(Quadric<3> pull, Vec<3>& step) {
   const double trace = pull.q[Q::a(0, 0)] + pull.q[Q::a(1, 1)] + pull.q[Q::a(2, 2)];
   for (std::size_t i = 0; i < 3; ++i) pull.q[Q::a(i, i)] += kDraw * trace;
   if (!(trace > 0) || !minimum(pull, step, kDraw * kDraw)) return false;
-  // Not much farther than its samples are off: of a brain at 5 % the largest distance would be twice as large.
-  constexpr double kReach = 1.2;
+  // No farther than its samples are off: of a brain at 5 % the largest distance would be twice as large.
+  constexpr double kReach = 1.0;
   const double reach = kReach * std::sqrt(pull.q[Q::c()] / trace);
   const double length = std::sqrt(dot(step, step));
   if (length > reach) step = times(step, reach / length);
