@@ -22,8 +22,10 @@ std::uint64_t limit_in(const std::string& path) {
 /// Of the folder and all above it, up to the root of the control groups.
 std::uint64_t limit_along(const std::string& root, std::string group, const std::string& name) {
   std::uint64_t limit = limit_in(root + "/" + name);
-  for (; group.size() > 1; group.resize(group.rfind('/')))
-    limit = std::min(limit, limit_in(root + group + "/" + name));
+  for (; group.size() > 1; group.resize(group.rfind('/'))) {
+    std::string path = root;
+    limit = std::min(limit, limit_in(path.append(group).append("/").append(name)));
+  }
   return limit;
 }
 
