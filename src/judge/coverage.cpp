@@ -74,16 +74,26 @@ void add_product(double n, double area, ExactSum& sum) {
   sum.add(std::fma(n, area, -product));
 }
 
+/// Which cells below row y are valid, from the column before the rectangle.
+struct CellRow {
+  const std::vector<std::uint8_t>& cells;
+  const GridRect& rect;
+  std::int32_t y;
+};
+
 /// The scale is taken anew every 64 columns, over which it does not change enough to be seen.
-void add_valid_area(const std::vector<std::uint8_t>& cells, const GridRect& rect, std::int32_t y,
-                    const HeightField& field, const GridFrame& frame, Findings& findings) {
+void add_valid_area(const CellRow& row, const HeightField& field, const GridFrame& frame, Findings& findings) {
   constexpr std::int32_t kRun = 64;
+  const auto& [cells, rect, y] = row;
   for (std::int32_t x = rect.x0; x < rect.x0 + rect.width;) {
     const std::int32_t run = x / kRun * kRun;
     const std::int32_t run_end = std::min(run + kRun, field.width());
     const std::int32_t end = std::min(run_end, rect.x0 + rect.width);
     double n = 0;
-    for (; x < end; ++x) n += cells[static_cast<std::size_t>(x - rect.x0 + 1)];
+    for (; x < end; ++x) {
+      const std::int32_t i = x - rect.x0 + 1;
+      n += cells[static_cast<std::size_t>(i)];
+    }
     if (n == 0) continue;
     findings.cells_valid.add(n);
     add_product(n, cell_area(frame, (run + double{0} + run_end) / 2, y + 0.5), findings.area_valid);
@@ -114,7 +124,7 @@ void measure_coverage(const GridRect& samples, std::span<const Facet> facets, co
   std::vector<std::uint8_t> above = valid_cells(coverage, samples.y0 - 1);
   for (std::int32_t y = samples.y0; y < samples.y0 + samples.height; ++y) {
     std::vector<std::uint8_t> below = valid_cells(coverage, y);
-    add_valid_area(below, samples, y, field, frame, findings);
+    add_valid_area({below, samples, y}, field, frame, findings);
     for (std::int32_t x = samples.x0; x < samples.x0 + samples.width; ++x) {
       const auto left = static_cast<std::size_t>(x - samples.x0);
       add_sample(coverage, x, y, above[left] + above[left + 1] + below[left] + below[left + 1] > 0, findings);

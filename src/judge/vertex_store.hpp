@@ -41,7 +41,7 @@ class VertexStore {
     if (size_ % kPageSize == 0) {
       make_room();
       loaded_.push_back(pages_.size());
-      pages_.push_back({std::make_unique<T[]>(kPageSize), {}});
+      pages_.emplace_back().vertices = std::make_unique<T[]>(kPageSize);
     }
     pages_.back().vertices[size_++ % kPageSize] = vertex;
   }

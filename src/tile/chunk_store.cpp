@@ -208,6 +208,7 @@ std::uint64_t ChunkStore::bytes_in_memory() const {
 
 void ChunkStore::put(WindowName task, std::vector<ChunkPart>&& chunks, const WindowCounts& counts) {
   std::vector<Part> parts;
+  parts.reserve(chunks.size());
   for (const ChunkPart& chunk : chunks) parts.push_back({chunk.window, 0, 0, 0, bytes_held(chunk.chunk), nullptr});
   if (!options_.folder.empty()) write(task, parts, counts, chunks);
   const std::lock_guard lock(mutex_);

@@ -124,8 +124,8 @@ TEST_F(CliSizes, NinetyBillionSamplesNearlyAllVoid) {
 TEST_F(CliSizes, AnLShapedMosaic) {
   std::vector<std::string> tiles;
   for (const int i : {0, 2, 3}) {
-    const double x = 400000 + 30.0 * 90 * (i % 2);
-    const double y = 5100000 - 30.0 * 90 * (i / 2);
+    const double x = 400000 + 2700 * (i % 2);
+    const double y = 5100000 - 2700 * (i >= 2 ? 1 : 0);
     tiles.push_back(hill(std::to_string(i) + ".tif", 90, {.geotransform = {{x, 30, 0, y, 0, -30}}}));
   }
   const json report = compressed(tiles, {"--max-error", "2", "--window", "32"});

@@ -25,7 +25,7 @@ struct ColourRecipe {
 class ColourRasterTest : public RasterTest {
  protected:
   std::string write_colours(const ColourRecipe& recipe) const {
-    const std::string name = path("ortho.tif");
+    std::string name = path("ortho.tif");
     GDALDatasetUniquePtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
         name.c_str(), recipe.width, recipe.height, recipe.bands, recipe.type, nullptr));
     OGRSpatialReference crs;
@@ -89,7 +89,9 @@ TEST_F(ColourRasterTest, LieAtTheirPlacesWhenFinerCoarserAndShifted) {
   finer.geotransform = {400000, 2, 0, 5100000, 0, -2};
   finer.type = GDT_Byte;
   finer.value = [](int band, int column, int row) {
-    return band == 1 ? 4.0 * (column / 5) : band == 2 ? 6.0 * (row / 5) : 77.0;
+    const int five_columns = column / 5;
+    const int five_rows = row / 5;
+    return band == 1 ? 4.0 * five_columns : band == 2 ? 6.0 * five_rows : 77.0;
   };
   expect_map(read_colours(finer), {0, 0, 60, 40}, 0.01);
   ColourRecipe coarser;  // its first column and row hold no negative values

@@ -24,7 +24,7 @@ using RasterMosaic = RasterTest;
 RasterRecipe tile(int column, int row, int width, int height, double z) {
   RasterRecipe recipe{.width = width, .height = height, .type = GDT_Float32};
   recipe.geotransform = {400000 + 30.0 * column, 30, 0, 5100000 - 30.0 * row, 0, -30};
-  recipe.values.assign(static_cast<std::size_t>(width * height), z);
+  recipe.values.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), z);
   return recipe;
 }
 

@@ -115,8 +115,9 @@ TEST_F(TerrainWithColour, HasTheColoursOfTheOrthoOnAPlaneInEveryFormat) {
       std::size_t n_west = 0, n_east = 0;
       for (std::size_t v = 0; v < mesh.colour.size(); ++v) {
         const double column = column_of(mesh.tin.vertices[v]);
-        const bool is_west = column <= kWidth / 2 - 1;
-        if (!is_west && column < kWidth / 2) continue;
+        constexpr int kMiddle = kWidth / 2;
+        const bool is_west = column <= kMiddle - 1;
+        if (!is_west && column < kMiddle) continue;
         ++(is_west ? n_west : n_east);
         for (int c = 0; c < mesh.n_channels; ++c) {
           const int band = c == 3 ? bands : bands < 3 ? 1 : c + 1;
