@@ -87,6 +87,7 @@ class SurfaceSimplifier {
     }
     tell(1);
     geometry_ = {};  // fit needs as much
+    queue_ = {};
     if (report_.collapses > 0 && !samples_.vertex.empty()) fit(mesh_, values_, samples_);
   }
 
