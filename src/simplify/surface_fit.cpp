@@ -195,7 +195,7 @@ void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) 
   }
 }
 
-// Of what samples farther off than any at the start are over.
+// The corners under samples that are farther off than any was at the start.
 void find_astray(const SurfaceMesh& mesh, Fit& fit) {
   fit.is_astray.assign(mesh.position.size(), 0);
   for (std::size_t i = 0; i < fit.squared.size(); ++i) {

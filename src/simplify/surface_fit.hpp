@@ -22,7 +22,8 @@ struct FitSamples {
 FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const SimplifySurfaceOptions& options);
 
 /// Moves interior vertices, and then changes their values, so that the samples are nearer to the surface, and their
-/// values to those there. No triangle turns over, nor away from a neighbour; lines, borders and seams stay.
+/// values to those there. Where a sample got farther off than any was before, the vertices are drawn back half of
+/// the way. No triangle turns over, nor away from a neighbour; lines, borders and seams stay.
 void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples);
 
 }  // namespace tinsmith
