@@ -2,6 +2,8 @@
 // A run that is killed again and again, and what that costs.
 
 #include <cmath>
+#include <fstream>
+#include <string>
 
 #include "cli/faults_fixture.hpp"
 
@@ -60,6 +62,7 @@ class KillTest : public FaultsTest {
     std::uniform_real_distribution<double> share(0, 1);
     for (int i = 0; i < n; ++i) {
       const Running running = start(words);
+      if (signal != SIGKILL) wait_until(running, [&] { return catches(running.process, signal); });
       if (i < n - n_writing) {
         // A little less than the parts of an undisturbed run: what is lost at each kill has to be done as well.
         sleep_for(start_up.total + 1.8 * share(random) * part);
@@ -94,6 +97,14 @@ class KillTest : public FaultsTest {
  private:
   static void sleep_for(double seconds) { usleep(static_cast<useconds_t>(seconds * 1e6)); }
 
+  /// Whether the program has come so far that a signal does not just end it.
+  static bool catches(pid_t process, int signal) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.starts_with("SigCgt:")) return std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1;
+    return false;
+  }
+
   /// The same on a raster of a few samples.
   Course start_up_of(Words words) const {
     words[1] = hill("few.tif", 8);
@@ -116,8 +127,7 @@ class KillTest : public FaultsTest {
     if (outcome.exit_code == 0) return;  // too late
     ++killings.n;
     ++killings.by_stage[was_writing ? "write" : stage_reached()];
-    // Before the program can catch signals they end it, and nothing is begun yet.
-    if (signal == SIGKILL || outcome.exit_code == -1) return;
+    if (signal == SIGKILL) return;
     ++killings.n_said;
     EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
     EXPECT_NE(outcome.err.find("the same command goes on from here"), std::string::npos) << outcome.err;
