@@ -10,7 +10,7 @@ namespace tinsmith {
 
 /// What the values at the vertices mean.
 enum class AttributeKind {
-  kColour,  // r g b in [0, 1], linear in what the file stores
+  kColour,  // r g b in [0, 1], sRGB as in images; linear in .glb, converted on reading and writing
   kNormal,  // x y z of unit length; 0 0 0 where a file has none
   kScalar,  // one number of any range
 };

@@ -12,6 +12,7 @@
 
 #include "io/glb_chunks.hpp"
 #include "io/input_file.hpp"
+#include "io/linear_colour.hpp"
 #include "io/mesh_file.hpp"
 #include "io/mesh_text.hpp"
 #include "io/output_file.hpp"
@@ -22,7 +23,7 @@ namespace tinsmith {
 namespace {
 
 // Local frame of the node: X = column - origin column, Z = +-(row - origin row), in cells, Y = metres above the
-// origin's height. A vertex's colour stands behind its position, padded to four bytes. The sign makes it a
+// origin's height. A vertex's colour stands behind its position, padded to eight bytes. The sign makes it a
 // right-handed frame with Y up, so that the node never mirrors. World: X = east, Y = up, Z = -north, each the CRS
 // coordinate times metres_per_unit.
 
@@ -35,8 +36,10 @@ static_assert(std::endian::native == std::endian::little, "glTF is written in th
 constexpr std::uint64_t kMaxJsonBytes = 1 << 24;  // ours have some kilobytes: a CRS and a page of numbers
 constexpr std::uint64_t kJsonRoom = 1 << 16;      // left for it when a mesh is refused by its counts
 constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 48;  // far beyond 4 GiB, and no size of it overflows
-constexpr int kFloat = 5126, kUint8 = 5121, kUint16 = 5123, kUint32 = 5125;
-constexpr std::size_t kColourBytes = 4;  // glTF wants every attribute to begin at a multiple of four
+constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125;
+using Shares = std::array<std::uint16_t, 4>;          // of colour; without alpha two bytes of padding end them
+constexpr std::size_t kColourBytes = sizeof(Shares);  // glTF wants every vertex to begin at a multiple of four
+constexpr int kSharesPerAlpha = 65535 / 255;
 constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;
 
 // float32 holds sixteenths of a cell exactly up to 2^24 of them; a cell less for the rounding of the origin.
@@ -185,12 +188,28 @@ struct Layout {
   std::uint64_t indices;
 };
 
+/// share_of_level, which is slow, from a table.
+std::uint16_t share_of_byte(std::uint8_t level) {
+  static const auto shares = [] {
+    std::array<std::uint16_t, 256> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = share_of_level(static_cast<double>(i));
+    return all;
+  }();
+  return shares[level];
+}
+
+Shares shares_of(const Levels& colour, int n_channels) {
+  const auto [red, green, blue, alpha] = stored_colour(colour, n_channels);
+  return {share_of_byte(red), share_of_byte(green), share_of_byte(blue),
+          static_cast<std::uint16_t>(alpha * kSharesPerAlpha)};
+}
+
 /// Colours share the vertices' buffer view with the positions: vertices are gone through once.
 void add_colours(Json& json, const TerrainExtent& extent) {
   json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json["accessors"].size();
   json["accessors"].push_back({{"bufferView", 0},
                                {"byteOffset", sizeof(Position)},
-                               {"componentType", kUint8},
+                               {"componentType", kUint16},
                                {"normalized", true},
                                {"count", extent.n_vertices},
                                {"type", n_stored_channels(extent.n_channels) == 4 ? "VEC4" : "VEC3"}});
@@ -271,12 +290,20 @@ void interpret_node(const Json& node, Document& document) {
 int stored_channels(const Json& json, std::uint64_t n_vertices) {
   if (!json.at("meshes").at(0).at("primitives").at(0).at("attributes").contains("COLOR_0")) return 0;
   const Json& colours = json.at("accessors").at(2);
-  const bool is_ours = colours.at("componentType") == kUint8 && colours.at("byteOffset") == sizeof(Position) &&
+  const bool is_ours = colours.at("componentType") == kUint16 && colours.at("byteOffset") == sizeof(Position) &&
                        (colours.at("type") == "VEC3" || colours.at("type") == "VEC4") &&
                        count(colours.at("count")) == n_vertices &&
                        json.at("bufferViews").at(0).at("byteStride") == sizeof(Position) + kColourBytes;
   if (!is_ours) throw std::invalid_argument("the colours are not as tinsmith writes them");
   return colours.at("type") == "VEC4" ? 4 : 3;
+}
+
+Levels levels_at(const char* bytes, int n_stored) {
+  Shares shares;
+  std::memcpy(shares.data(), bytes, sizeof shares);
+  const auto [red, green, blue, alpha] = shares;
+  return {level_of_share(red), level_of_share(green), level_of_share(blue),
+          n_stored == 4 ? static_cast<float>(alpha) / kSharesPerAlpha : 0.0F};
 }
 
 Document interpret(const Json& json) {
@@ -380,7 +407,7 @@ void write_glb(const std::string& path, const TerrainSurface& surface, const Gri
     write_records(file, vertices, of_vertex, [&](const TerrainVertex& vertex, char* bytes) {
       std::memcpy(bytes, local_position(vertex, local).data(), sizeof(Position));
       if (extent.n_channels == 0) return;
-      std::memcpy(bytes + sizeof(Position), stored_colour(vertex.colour, extent.n_channels).data(), kColourBytes);
+      std::memcpy(bytes + sizeof(Position), shares_of(vertex.colour, extent.n_channels).data(), kColourBytes);
     });
   });
   const auto put = layout.index_bytes == 2 ? put_triangle<std::uint16_t> : put_triangle<std::uint32_t>;
@@ -399,7 +426,7 @@ std::string visit_glb(const std::string& path, const MeshVisitor& visitor) {
   require_size(file, document);
   if (visitor.counts) visitor.counts(document.n_vertices, document.n_indices / 3);
   visit_vertex_records(
-      file, {document.n_vertices, vertex_bytes(document.n_stored), document.n_stored, sizeof(Position)},
+      file, {document.n_vertices, vertex_bytes(document.n_stored), document.n_stored, sizeof(Position), levels_at},
       [&](const char* bytes) { return vertex_at(file, document, bytes); }, visitor);
   visit_records(file, document.n_indices / 3, 3 * document.index_bytes,
                 document.index_bytes == 2 ? triangle_at<std::uint16_t> : triangle_at<std::uint32_t>,

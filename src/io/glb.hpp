@@ -6,8 +6,8 @@
 // a geographic CRS: metres per degree at the middle of the mesh). The node's extras say how to undo that:
 //   crs_wkt, origin [x, y, z in CRS units], metres_per_unit [of x, y, z],
 //   geotransform [GDAL's six], origin_column, origin_row [the sample at the local origin].
-// Colours are COLOR_0 as normalised bytes, the levels as the raster has them: glTF takes those as linear, so that
-// strict viewers show an sRGB ortho brighter than it is.
+// Colours are COLOR_0, linear as glTF asks, so that viewers show them as the ortho: whole levels of sRGB as
+// normalised 16-bit numbers, which tell all levels apart. Alpha is linear anyway.
 
 #include <cstdint>
 #include <string>

@@ -25,6 +25,7 @@ constexpr float kFullLevel = 255;
 struct Format {
   std::string_view extension;
   std::uint64_t vertex_bytes;    // of a text line with the coordinates of a metric CRS, heights in full
+  std::uint64_t colour_bytes;    // of a vertex with three channels
   std::uint64_t triangle_bytes;  // of a text line without the numbers of the vertices
   std::uint64_t digits;          // numbers of vertices on the two kinds of lines; 0: not a text
   void (*write)(const std::string&, const TerrainSurface&, const GridFrame&);
@@ -32,10 +33,10 @@ struct Format {
 };
 
 constexpr std::array kFormats{
-    Format{".ply", 24, 13, 0, write_ply, visit_ply},
-    Format{".obj", 45, 5, 3, write_obj, visit_obj},
-    Format{".glb", 12, 12, 0, write_glb, visit_glb},
-    Format{".2dm", 50, 10, 4, write_two_dm, visit_two_dm},
+    Format{".ply", 24, 3, 13, 0, write_ply, visit_ply},
+    Format{".obj", 45, 33, 5, 3, write_obj, visit_obj},
+    Format{".glb", 12, 8, 12, 0, write_glb, visit_glb},
+    Format{".2dm", 50, 0, 10, 4, write_two_dm, visit_two_dm},
 };
 
 std::string extension(const std::string& path) {
@@ -114,11 +115,13 @@ void require_format_holds(const std::string& path, std::uint64_t n_vertices, std
   if (extension(path) == ".glb") require_glb_holds(path, n_vertices, n_triangles);
 }
 
-std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles) {
+std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles,
+                                  int n_channels) {
   require_mesh_extension(path);
   const Format& format = *format_of(path);
   const std::uint64_t n_digits = format.digits * std::to_string(n_vertices).size();
-  return n_vertices * format.vertex_bytes + n_triangles * (format.triangle_bytes + n_digits);
+  const std::uint64_t of_vertex = format.vertex_bytes + (n_channels > 0 ? format.colour_bytes : 0);
+  return n_vertices * of_vertex + n_triangles * (format.triangle_bytes + n_digits);
 }
 
 void require_format_holds_colour(const std::string& path, int n_channels) {

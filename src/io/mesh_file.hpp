@@ -29,8 +29,10 @@ double height_rounding(const std::string& path, double lowest, double highest);
 /// What passes here has a size that write_mesh can write. Only .glb has a limit: 4 GiB.
 void require_format_holds(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles);
 
-/// About how many bytes write_mesh will write; for text an estimate, by numbers of common length.
-std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles);
+/// About how many bytes write_mesh will write, with colours of so many channels (0: none); for text an estimate, by
+/// numbers of common length.
+std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_vertices, std::uint64_t n_triangles,
+                                  int n_channels);
 
 /// Throws UsageError when the format of this path can't hold vertices with colours of so many channels (0: none);
 /// says which can. .ply and .glb hold all, .obj those without alpha, .2dm none.
@@ -40,8 +42,9 @@ void require_format_holds_colour(const std::string& path, int n_channels);
 /// .prj companion of .obj and .2dm the same way. The bytes depend on the arguments only, the path excluded.
 /// Goes through the vertices once and through the triangles once, in a few MB of memory. Throws OutputError (with
 /// the system's reason), and ResourceError before a byte is written when the format can't hold the mesh.
-/// Colours become bytes of red, green and blue: grey is all three alike, the second of two and the fourth of four
-/// channels is alpha. .ply: uchar properties; .glb: COLOR_0; .obj: fractions of 255 behind the coordinates.
+/// Colours become whole levels of red, green and blue: grey is all three alike, the second of two and the fourth of
+/// four channels is alpha. .ply: uchar properties; .glb: COLOR_0, linear in 16 bits; .obj: fractions of 255 behind
+/// the coordinates.
 void write_mesh(const std::string& path, const TerrainSurface& surface, const GridFrame& frame);
 void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame);
 

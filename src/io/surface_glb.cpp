@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/glb_chunks.hpp"
+#include "io/linear_colour.hpp"
 #include "io/output_file.hpp"
 #include "tinsmith/error.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Place = std::array<double, 3>;
 using LocalPlace = std::array<float, 3>;
+using Shares = std::array<std::uint16_t, 4>;  // of red, green, blue, and full alpha: it fills glTF's four bytes
 
 static_assert(std::endian::native == std::endian::little, "glTF is written in the machine's byte order");
 
@@ -106,7 +108,9 @@ std::string json_text(const Surface& surface, const Place& origin) {
   if (surface.find(AttributeKind::kNormal) != nullptr)
     attributes["NORMAL"] = description.add(vectors_accessor(n_vertices), vectors_size, kVertexBuffer);
   if (surface.find(AttributeKind::kColour) != nullptr)
-    attributes["COLOR_0"] = description.add(vectors_accessor(n_vertices), vectors_size, kVertexBuffer);
+    attributes["COLOR_0"] =
+        description.add({{"componentType", kUint16}, {"normalized", true}, {"count", n_vertices}, {"type", "VEC4"}},
+                        n_vertices * sizeof(Shares), kVertexBuffer);
   const std::uint64_t n_corners = 3 * surface.triangles.size();
   const std::size_t indices = description.add(
       {{"componentType", index_bytes(surface) == 2 ? kUint16 : kUint32}, {"count", n_corners}, {"type", "SCALAR"}},
@@ -126,12 +130,18 @@ std::string json_text(const Surface& surface, const Place& origin) {
   return text;
 }
 
-void write_attribute(OutputFile& file, const SurfaceAttribute* attribute) {
-  if (attribute == nullptr) return;
-  const bool is_colour = attribute->kind == AttributeKind::kColour;
-  for (const float value : attribute->values) {
-    const float allowed = is_colour ? std::clamp(value, 0.0F, 1.0F) : value;
-    file.write(&allowed, sizeof allowed);
+void write_normals(OutputFile& file, const Surface& surface) {
+  const SurfaceAttribute* const normal = surface.find(AttributeKind::kNormal);
+  if (normal != nullptr) file.write(normal->values.data(), normal->values.size() * sizeof(float));
+}
+
+void write_colours(OutputFile& file, const Surface& surface) {
+  const SurfaceAttribute* const colour = surface.find(AttributeKind::kColour);
+  if (colour == nullptr) return;
+  for (std::size_t k = 0; k < colour->values.size(); k += 3) {
+    Shares shares{0, 0, 0, std::numeric_limits<std::uint16_t>::max()};
+    for (std::size_t i = 0; i < 3; ++i) shares[i] = share_of_level(255.0 * double{colour->values[k + i]});
+    file.write(shares.data(), sizeof shares);
   }
 }
 
@@ -144,8 +154,8 @@ void write_indices(OutputFile& file, const Surface& surface) {
 
 std::uint64_t binary_size(const Surface& surface) {
   std::uint64_t size = surface.position.size() * sizeof(LocalPlace);
-  for (const AttributeKind kind : {AttributeKind::kNormal, AttributeKind::kColour})
-    if (surface.find(kind) != nullptr) size += surface.position.size() * sizeof(LocalPlace);
+  if (surface.find(AttributeKind::kNormal) != nullptr) size += surface.position.size() * sizeof(LocalPlace);
+  if (surface.find(AttributeKind::kColour) != nullptr) size += surface.position.size() * sizeof(Shares);
   return size + padded(3 * surface.triangles.size() * index_bytes(surface));
 }
 
@@ -168,8 +178,8 @@ void write_surface_glb(const std::string& path, const Surface& surface) {
     const LocalPlace local = local_place(place, origin);
     file.write(local.data(), sizeof local);
   }
-  write_attribute(file, surface.find(AttributeKind::kNormal));
-  write_attribute(file, surface.find(AttributeKind::kColour));
+  write_normals(file, surface);
+  write_colours(file, surface);
   write_indices(file, surface);
   file.commit();
 }

@@ -14,6 +14,7 @@
 
 #include "io/glb_chunks.hpp"
 #include "io/input_file.hpp"
+#include "io/linear_colour.hpp"
 #include "io/mesh_text.hpp"
 #include "io/surface_glb.hpp"
 
@@ -28,9 +29,9 @@ enum ComponentType { kInt8 = 5120, kUint8 = 5121, kInt16 = 5122, kUint16 = 5123,
 // A scene of 100 000 nodes has half of it. Parsed, each byte may take twenty, and a hundred in arrays of arrays.
 constexpr std::uint64_t kMaxJsonBytes = 1 << 25;
 constexpr int kMaxJsonDepth = 64;
-// Nodes may show a mesh again and again. More vertices than this (100 MB) and than the file has bytes, which is
+// Nodes may show a mesh again and again. More vertices than this (25 MB) and than the file has bytes, which is
 // twelve times what it can hold, are no scene but an attack on memory.
-constexpr std::uint64_t kMaxUnfolded = 1 << 22;
+constexpr std::uint64_t kMaxUnfolded = 1 << 20;
 
 /// Told apart from what the JSON library throws; read_surface_glb adds the path.
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
@@ -195,15 +196,17 @@ void require_colours(const Accessor& accessor) {
     refuse("COLOR_0 is neither of floats nor of normalized unsigned bytes or shorts");
 }
 
-float colour_at(const Accessor& accessor, std::uint64_t i, std::uint64_t k) {
+constexpr int kSharesPerByte = 65535 / 255;
+
+double level_at(const Accessor& accessor, std::uint64_t i, std::uint64_t k) {
   switch (accessor.component_type) {
     case kUint8:
-      return static_cast<float>(accessor.component<std::uint8_t>(i, k) / 255.0);
+      return level_of_share(static_cast<std::uint16_t>(accessor.component<std::uint8_t>(i, k) * kSharesPerByte));
     case kUint16:
-      return static_cast<float>(accessor.component<std::uint16_t>(i, k) / 65535.0);
+      return level_of_share(accessor.component<std::uint16_t>(i, k));
     default: {
-      const auto value = accessor.component<float>(i, k);
-      return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : value;  // clamped: so glTF says
+      const double light = accessor.component<float>(i, k);
+      return std::isfinite(light) ? level_of_light(std::clamp(light, 0.0, 1.0)) : light;  // clamped: so glTF says
     }
   }
 }
@@ -375,7 +378,8 @@ class SurfaceBuilder {
     require_one_for_each(colours);
     fill(colour_, first_);
     for (std::uint64_t v = 0; v < colours.count; ++v)
-      for (std::uint64_t k = 0; k < 3; ++k) colour_.values.push_back(colour_at(colours, v, k));
+      for (std::uint64_t k = 0; k < 3; ++k)
+        colour_.values.push_back(static_cast<float>(level_at(colours, v, k) / 255));
   }
 
   void add_triangles(const Json& primitive, bool is_mirrored) {

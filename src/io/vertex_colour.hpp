@@ -1,5 +1,5 @@
 #pragma once
-// Colours of vertices as mesh files hold them: red, green, blue and perhaps alpha, a byte each.
+// Colours of vertices as mesh files hold them: red, green, blue and perhaps alpha, whole levels.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ inline std::array<std::uint8_t, 4> stored_colour(const Levels& colour, int n_cha
 }
 
 /// The levels of so many stored bytes.
-inline Levels levels_from(const char* bytes, int n_stored) {
+inline Levels levels_of_bytes(const char* bytes, int n_stored) {
   Levels levels{};
   for (int i = 0; i < n_stored; ++i)
     levels[static_cast<std::size_t>(i)] = static_cast<float>(static_cast<unsigned char>(bytes[i]));
@@ -57,13 +57,14 @@ inline void visit_coloured(std::span<const ColouredVertex> vertices, int n_store
   visitor.vertices(positions);
 }
 
-/// Where a binary file has its vertices: so many, in records of so many bytes, with this many bytes of colour at an
-/// offset.
+/// Where a binary file has its vertices: so many, in records of so many bytes, with this many channels of colour at
+/// an offset, and what makes levels of them.
 struct VertexRecords {
   std::uint64_t n = 0;
   std::size_t bytes = 0;
   int n_stored = 0;
   std::size_t colour_offset = 0;
+  Levels (*levels_at)(const char* bytes, int n_stored) = levels_of_bytes;
 };
 
 /// Visits the vertices, of which position_at(bytes) makes the place.
@@ -80,7 +81,8 @@ void visit_vertex_records(InputFile& file, const VertexRecords& records, Positio
   visit_records(
       file, records.n, records.bytes,
       [&](const char* bytes) {
-        return ColouredVertex{position_at(bytes), levels_from(bytes + records.colour_offset, records.n_stored)};
+        return ColouredVertex{position_at(bytes),
+                              records.levels_at(bytes + records.colour_offset, records.n_stored)};
       },
       visit);
 }

@@ -225,7 +225,8 @@ CompressPlan plan(const std::vector<std::string>& inputs, const std::string& out
   CompressPlan plan = plan_of(outset, memory);
   const Trial trial = try_out(outset, plan);
   plan.tried_windows = trial.n_windows;
-  plan.expected_output = expected_mesh_bytes(output, plan.expected_triangles / 2, plan.expected_triangles);
+  plan.expected_output =
+      expected_mesh_bytes(output, plan.expected_triangles / 2, plan.expected_triangles, n_channels);
   plan.expected_scratch = scratch_of(plan, outset, trial);
   plan.expected_peak_memory = peak_of(plan, trial);
   plan.output_folder = folder_of(output);

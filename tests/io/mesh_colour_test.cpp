@@ -123,11 +123,46 @@ TEST(MeshColour, OfGlbIsAlignedAsTheFormatWants) {
     const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
     const auto& colours = json["accessors"][attributes["COLOR_0"].get<std::size_t>()];
     EXPECT_EQ(colours["type"], n_channels == 3 ? "VEC3" : "VEC4");
-    EXPECT_EQ(colours["componentType"], 5121);
+    EXPECT_EQ(colours["componentType"], 5123);
     EXPECT_EQ(colours["normalized"], true);
     EXPECT_EQ(colours["byteOffset"].get<int>() % 4, 0);
     EXPECT_EQ(json["bufferViews"][0]["byteStride"].get<int>() % 4, 0);
     EXPECT_EQ(json["bufferViews"][1]["byteOffset"].get<std::uint64_t>() % 4, 0U);
+  }
+}
+
+TEST(MeshColour, OfGlbIsLinearAsViewersExpect) {
+  const ScratchFolder folder;
+  TerrainMesh mesh = coloured_mesh(4);
+  mesh.colour[0] = {255, 128, 10, 128};
+  write_mesh(folder.file("mesh.glb"), mesh, frames()[0]);
+  const std::string bytes = bytes_of(folder.file("mesh.glb"));
+  std::uint32_t json_size = 0;
+  std::copy(bytes.begin() + 12, bytes.begin() + 16, reinterpret_cast<char*>(&json_size));
+  std::array<std::uint16_t, 4> shares{};
+  const std::size_t first = 20 + json_size + 8 + 3 * sizeof(float);
+  std::copy_n(bytes.data() + first, sizeof shares, reinterpret_cast<char*>(shares.data()));
+  EXPECT_EQ(shares[0], 65535);
+  EXPECT_NEAR(shares[1] / 65535.0, 0.21586, 1e-5);
+  EXPECT_NEAR(shares[2] / 65535.0, 0.003035, 1e-5);
+  EXPECT_EQ(shares[3], 128 * 257) << "alpha is no light";
+}
+
+TEST(MeshColour, CountsInTheSizeThatIsForeseen) {
+  const ScratchFolder folder;
+  const TerrainMesh mesh = coloured_mesh(3);
+  TerrainMesh plain = mesh;
+  plain.n_channels = 0;
+  for (const std::string& extension : extensions_for(3)) {
+    const auto written = [&](const TerrainMesh& what) {
+      write_mesh(folder.file("mesh" + extension), what, frames()[0]);
+      return static_cast<double>(bytes_of(folder.file("mesh" + extension)).size());
+    };
+    const auto foreseen = [&](int n_channels) {
+      return static_cast<double>(
+          expected_mesh_bytes("a" + extension, mesh.position.size(), mesh.triangles.size(), n_channels));
+    };
+    EXPECT_NEAR((foreseen(3) - foreseen(0)) / (written(mesh) - written(plain)), 1, 0.1) << extension;
   }
 }
 

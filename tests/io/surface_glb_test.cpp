@@ -53,13 +53,21 @@ struct Scene {
   std::string binary;
 };
 
+// sRGB of light.
+constexpr float kFifthOfLight = 0.4845292F, kOne65535thOfLight = 12.92F / 65535;
+
+void expect_near(const std::vector<float>& values, const std::vector<float>& expected) {
+  ASSERT_EQ(values.size(), expected.size());
+  for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], expected[k], 1e-6) << k;
+}
+
 TEST(SurfaceGlb, ReadsBytesShortsAndStrides) {
   const ScratchFolder folder;
   Scene scene;
   const Surface surface = read_bytes(folder, ".glb", scene.bytes());
   EXPECT_EQ(surface.position, (std::vector<Place>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_EQ(surface.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}}));
-  EXPECT_EQ(surface.find(AttributeKind::kColour)->values, (std::vector<float>{1, 0, 0.2F, 0, 0, 0, 0, 1, 0}));
+  expect_near(surface.find(AttributeKind::kColour)->values, {1, 0, kFifthOfLight, 0, 0, 0, 0, 1, 0});
   EXPECT_EQ(surface.find(AttributeKind::kNormal)->values, (std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}));
   // Colours as shorts, every second one skipped.
   scene.json["accessors"][2] = {
@@ -69,8 +77,19 @@ TEST(SurfaceGlb, ReadsBytesShortsAndStrides) {
     append_bytes(scene.binary, static_cast<std::uint16_t>(channel));
   scene.json["accessors"][2]["count"] = 3;
   scene.json["bufferViews"][1] = {{"buffer", 0}, {"byteOffset", 88}, {"byteLength", 30}, {"byteStride", 12}};
-  EXPECT_EQ(read_bytes(folder, ".glb", scene.bytes()).find(AttributeKind::kColour)->values,
-            (std::vector<float>{1, static_cast<float>(1 / 65535.0), 0, 0, 1, 0, 0, 0, 0.2F}));
+  expect_near(read_bytes(folder, ".glb", scene.bytes()).find(AttributeKind::kColour)->values,
+              {1, kOne65535thOfLight, 0, 0, 1, 0, 0, 0, kFifthOfLight});
+}
+
+TEST(SurfaceGlb, ReadsColoursOfFloatsAsLinearToo) {
+  const ScratchFolder folder;
+  Scene scene;
+  for (const double light : {1.0, 0.2, 0.0, -0.5, 1.5, 1 / 65535.0, 0.2, 0.2, 0.2})
+    append_bytes(scene.binary, static_cast<float>(light));
+  scene.json["accessors"][2] = {{"bufferView", 1}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}};
+  scene.json["bufferViews"][1] = {{"buffer", 0}, {"byteOffset", 88}, {"byteLength", 36}};
+  expect_near(read_bytes(folder, ".glb", scene.bytes()).find(AttributeKind::kColour)->values,
+              {1, kFifthOfLight, 0, 0, 1, kOne65535thOfLight, kFifthOfLight, kFifthOfLight, kFifthOfLight});
 }
 
 TEST(SurfaceGlb, AppliesTransformsOfNodes) {
