@@ -3,50 +3,25 @@
 #include <cmath>
 #include <thread>
 
-#include "io/raster_fixture.hpp"
+#include "support/colour_file.hpp"
 
 namespace tinsmith {
 namespace {
 
-/// What to write; every test changes what it is about. The grid of the terrain is 60 x 40 cells of 10 m.
-struct ColourRecipe {
-  int width = 60;
-  int height = 40;
-  int bands = 3;
-  GDALDataType type = GDT_Byte;
-  std::string crs = "EPSG:32632";
-  std::array<double, 6> geotransform{400000, 10, 0, 5100000, 0, -10};
-  std::function<double(int band, int column, int row)> value = [](int band, int column, int row) {
-    return band == 1 ? 4.0 * column : band == 2 ? 6.0 * row : 77.0;
-  };
-  std::function<void(GDALDataset&)> declare = {};
-};
+using test::ColourFile;
+
+/// What every test changes where it is about. The grid of the terrain is 60 x 40 cells of 10 m.
+ColourFile map_of_the_terrain() {
+  ColourFile map;
+  map.width = 60;
+  map.height = 40;
+  map.geotransform = {400000, 10, 0, 5100000, 0, -10};
+  map.value = [](int band, int column, int row) { return band == 1 ? 4.0 * column : band == 2 ? 6.0 * row : 77.0; };
+  return map;
+}
 
 class ColourRasterTest : public RasterTest {
  protected:
-  std::string write_colours(const ColourRecipe& recipe) const {
-    std::string name = path("ortho.tif");
-    GDALDatasetUniquePtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-        name.c_str(), recipe.width, recipe.height, recipe.bands, recipe.type, nullptr));
-    OGRSpatialReference crs;
-    EXPECT_EQ(crs.SetFromUserInput(recipe.crs.c_str()), OGRERR_NONE);
-    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    dataset->SetSpatialRef(&crs);
-    std::array<double, 6> geotransform = recipe.geotransform;
-    dataset->SetGeoTransform(geotransform.data());
-    if (recipe.declare) recipe.declare(*dataset);
-    for (int b = 1; b <= recipe.bands; ++b) {
-      std::vector<double> values;
-      for (int y = 0; y < recipe.height; ++y) {
-        for (int x = 0; x < recipe.width; ++x) values.push_back(recipe.value(b, x, y));
-      }
-      EXPECT_EQ(dataset->GetRasterBand(b)->RasterIO(GF_Write, 0, 0, recipe.width, recipe.height, values.data(),
-                                                    recipe.width, recipe.height, GDT_Float64, 0, 0, nullptr),
-                CE_None);
-    }
-    return name;
-  }
-
   static GridFrame terrain() {
     GridFrame frame;
     frame.geotransform = {400000, 10, 0, 5100000, 0, -10};
@@ -64,8 +39,8 @@ class ColourRasterTest : public RasterTest {
     return result;
   }
 
-  ColourGrid read_colours(const ColourRecipe& recipe) const {
-    return ColourRaster(write_colours(recipe), terrain(), 60, 40).read({0, 0, 60, 40});
+  ColourGrid read_colours(const ColourFile& recipe) const {
+    return ColourRaster(write_colours(path("ortho.tif"), recipe), terrain(), 60, 40).read({0, 0, 60, 40});
   }
 };
 
@@ -80,10 +55,12 @@ void expect_map(const ColourGrid& grid, const GridRect& part, double slack) {
   }
 }
 
-TEST_F(ColourRasterTest, OfTheSameGridAreItsValues) { expect_map(read_colours({}), {0, 0, 60, 40}, 1e-3); }
+TEST_F(ColourRasterTest, OfTheSameGridAreItsValues) {
+  expect_map(read_colours(map_of_the_terrain()), {0, 0, 60, 40}, 1e-3);
+}
 
 TEST_F(ColourRasterTest, LieAtTheirPlacesWhenFinerCoarserAndShifted) {
-  ColourRecipe finer;
+  ColourFile finer = map_of_the_terrain();
   finer.width = 300;
   finer.height = 200;
   finer.geotransform = {400000, 2, 0, 5100000, 0, -2};
@@ -94,7 +71,7 @@ TEST_F(ColourRasterTest, LieAtTheirPlacesWhenFinerCoarserAndShifted) {
     return band == 1 ? 4.0 * five_columns : band == 2 ? 6.0 * five_rows : 77.0;
   };
   expect_map(read_colours(finer), {0, 0, 60, 40}, 0.01);
-  ColourRecipe coarser;  // its first column and row hold no negative values
+  ColourFile coarser = map_of_the_terrain();  // its first column and row hold no negative values
   coarser.width = 16;
   coarser.height = 11;
   coarser.geotransform = {399980, 40, 0, 5100020, 0, -40};
@@ -105,7 +82,7 @@ TEST_F(ColourRasterTest, LieAtTheirPlacesWhenFinerCoarserAndShifted) {
 }
 
 TEST_F(ColourRasterTest, LieAtTheirPlacesWhenTheCrsIsAnother) {
-  ColourRecipe recipe;
+  ColourFile recipe = map_of_the_terrain();
   recipe.crs = "EPSG:4326";
   recipe.width = 120;
   recipe.height = 80;
@@ -136,18 +113,18 @@ TEST_F(ColourRasterTest, LieAtTheirPlacesWhenTheCrsIsAnother) {
 }
 
 TEST_F(ColourRasterTest, HaveNoColourWhereNodataAlphaOrNothingIs) {
-  ColourRecipe alpha;
+  ColourFile alpha = map_of_the_terrain();
   alpha.bands = 4;
   alpha.declare = [](GDALDataset& dataset) { dataset.GetRasterBand(4)->SetColorInterpretation(GCI_AlphaBand); };
   alpha.value = [](int band, int column, int) { return band < 4 ? 50.0 : column < 30 ? 255.0 : 0.0; };
-  ColourRecipe nodata;
+  ColourFile nodata = map_of_the_terrain();
   nodata.declare = [](GDALDataset& dataset) {
     for (int b = 1; b <= 3; ++b) dataset.GetRasterBand(b)->SetNoDataValue(9);
   };
   nodata.value = [](int band, int column, int) { return column >= 30 || band == 1 ? 9.0 : 50.0; };
-  ColourRecipe narrow;
+  ColourFile narrow = map_of_the_terrain();
   narrow.width = 30;
-  for (const ColourRecipe& recipe : {alpha, nodata, narrow}) {
+  for (const ColourFile& recipe : {alpha, nodata, narrow}) {
     const ColourGrid grid = read_colours(recipe);
     ASSERT_EQ(grid.channels.size(), 3U);
     for (const HeightGrid& channel : grid.channels) {
@@ -159,7 +136,7 @@ TEST_F(ColourRasterTest, HaveNoColourWhereNodataAlphaOrNothingIs) {
 
 TEST_F(ColourRasterTest, ScaleOtherTypesByTheNextFullScale) {
   const auto level = [&](GDALDataType type, double value, double largest) {
-    ColourRecipe recipe;
+    ColourFile recipe = map_of_the_terrain();
     recipe.bands = 1;
     recipe.type = type;
     recipe.value = [=](int, int column, int) { return column < 50 ? value : largest; };
@@ -174,7 +151,7 @@ TEST_F(ColourRasterTest, ScaleOtherTypesByTheNextFullScale) {
 }
 
 TEST_F(ColourRasterTest, ExpandAPalette) {
-  ColourRecipe recipe;
+  ColourFile recipe = map_of_the_terrain();
   recipe.bands = 1;
   recipe.declare = [](GDALDataset& dataset) {
     GDALColorTable table;
@@ -192,12 +169,12 @@ TEST_F(ColourRasterTest, ExpandAPalette) {
 }
 
 TEST_F(ColourRasterTest, AreTheSameWhateverTheRectangleAndTheThread) {
-  ColourRecipe finer;
+  ColourFile finer = map_of_the_terrain();
   finer.width = 190;
   finer.height = 130;
   finer.geotransform = {400003, 3.1, 0, 5100000, 0.1, -3.1};
   finer.value = [](int band, int column, int row) { return (column * 37 + row * 91 + band * 53) % 256; };
-  const ColourRaster colours(write_colours(finer), terrain(), 60, 40);
+  const ColourRaster colours(write_colours(path("ortho.tif"), finer), terrain(), 60, 40);
   const ColourGrid whole = colours.read({-1, -1, 62, 42});
   std::vector<std::thread> threads;
   for (std::int32_t t = 0; t < 4; ++t) {
@@ -217,10 +194,10 @@ TEST_F(ColourRasterTest, AreTheSameWhateverTheRectangleAndTheThread) {
 }
 
 TEST_F(ColourRasterTest, SayInOneLineWhyNot) {
-  ColourRecipe five;
+  ColourFile five = map_of_the_terrain();
   five.bands = 5;
   expect_error<InputError>([&] { read_colours(five); }, {"ortho.tif", "5 bands", "gdal_translate -b"});
-  ColourRecipe elsewhere;
+  ColourFile elsewhere = map_of_the_terrain();
   elsewhere.geotransform = {700000, 10, 0, 5100000, 0, -10};
   expect_error<InputError>([&] { read_colours(elsewhere); }, {"ortho.tif", "where the terrain lies", "gdalinfo"});
   expect_error<InputError>([&] { ColourRaster(path("none.tif"), terrain(), 60, 40); },

@@ -12,15 +12,21 @@ struct ColourFile {
   int width = 0;
   int height = 0;
   int bands = 3;
-  std::function<int(int band, int column, int row)> value;  // bands from 1
+  std::function<double(int band, int column, int row)> value;  // bands from 1
   std::string crs = "EPSG:32632";
   std::array<double, 6> geotransform{400000, 30, 0, 5100000, 0, -30};
+  GDALDataType type = GDT_Byte;
+  /// Tells the dataset what its bands mean; otherwise nothing is known of them (the fourth is no mask).
+  std::function<void(GDALDataset&)> declare = [](GDALDataset& dataset) {
+    for (int b = 1; b <= dataset.GetRasterCount(); ++b)
+      dataset.GetRasterBand(b)->SetColorInterpretation(GCI_Undefined);
+  };
 };
 
 inline std::string write_colours(const std::string& path, const ColourFile& recipe) {
   GDALAllRegister();
   GDALDatasetUniquePtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-      path.c_str(), recipe.width, recipe.height, recipe.bands, GDT_Byte, nullptr));
+      path.c_str(), recipe.width, recipe.height, recipe.bands, recipe.type, nullptr));
   if (!recipe.crs.empty()) {
     OGRSpatialReference crs;
     EXPECT_EQ(crs.SetFromUserInput(recipe.crs.c_str()), OGRERR_NONE);
@@ -29,14 +35,14 @@ inline std::string write_colours(const std::string& path, const ColourFile& reci
   }
   std::array<double, 6> geotransform = recipe.geotransform;
   dataset->SetGeoTransform(geotransform.data());
+  if (recipe.declare) recipe.declare(*dataset);
   for (int b = 1; b <= recipe.bands; ++b) {
-    dataset->GetRasterBand(b)->SetColorInterpretation(GCI_Undefined);  // the fourth is no mask
-    std::vector<int> values;
+    std::vector<double> values;
     for (int y = 0; y < recipe.height; ++y) {
       for (int x = 0; x < recipe.width; ++x) values.push_back(recipe.value(b, x, y));
     }
     EXPECT_EQ(dataset->GetRasterBand(b)->RasterIO(GF_Write, 0, 0, recipe.width, recipe.height, values.data(),
-                                                  recipe.width, recipe.height, GDT_Int32, 0, 0, nullptr),
+                                                  recipe.width, recipe.height, GDT_Float64, 0, 0, nullptr),
               CE_None);
   }
   return path;
