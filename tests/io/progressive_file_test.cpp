@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -70,6 +71,26 @@ TEST_F(ProgressiveFile, DamageIsFoundOrHarmless) {
     }
   }
   EXPECT_EQ(n_found, kRounds);
+}
+
+TEST_F(ProgressiveFile, ValuesThatNoSurfaceHasAreRefused) {
+  const ProgressiveSurface sound = progressive_of(with_gradient_colour(sphere(4)));
+  const auto expect_refused = [&](ProgressiveSurface unsound) {
+    write_progressive(path_, unsound);
+    EXPECT_THROW(read_progressive(path_), InputError);
+  };
+  ProgressiveSurface changed = sound;
+  changed.base.attributes[0].values[1] = 1.5F;
+  expect_refused(changed);
+  changed = sound;
+  changed.splits.back().vertices.at(0).values[2] = std::nanf("");
+  expect_refused(changed);
+  changed = sound;
+  changed.base.attributes.push_back(changed.base.attributes[0]);  // a second colour
+  for (VertexSplit& split : changed.splits) {
+    for (VertexSplit::Vertex& vertex : split.vertices) vertex.values.resize(6);
+  }
+  expect_refused(changed);
 }
 
 TEST_F(ProgressiveFile, OtherFilesAreRefused) {
