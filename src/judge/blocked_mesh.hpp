@@ -13,6 +13,7 @@
 #include "geodesy/grid_frame.hpp"
 #include "judge/block_bins.hpp"
 #include "judge/block_grid.hpp"
+#include "judge/shared_parts.hpp"
 #include "judge/vertex_store.hpp"
 
 namespace tinsmith {
@@ -55,6 +56,9 @@ class BlockedMesh {
   std::size_t n_facets(BlockNumber block) const { return facets_.count(block); }
   /// The facets of a block by their numbers; the mesh forgets them. Several threads may take different blocks.
   std::vector<Facet> take(BlockNumber block) { return facets_.take(block); }
+  /// To which every block adds its own.
+  SharedParts& shared_parts() { return shared_parts_; }
+  const SharedParts& shared_parts() const { return shared_parts_; }
   /// Their colours, in the same order; empty without.
   std::vector<FacetColours> take_colours(BlockNumber block) { return facet_colours_.take(block); }
 
@@ -67,6 +71,7 @@ class BlockedMesh {
   double largest_height_ = 0;
   BlockBins<Facet> facets_;
   BlockBins<FacetColours> facet_colours_;
+  SharedParts shared_parts_;
   std::vector<BlockNumber> touched_;  // by the triangle at hand
 };
 

@@ -5,8 +5,6 @@
 #include <limits>
 #include <tuple>
 
-#include "judge/sets.hpp"
-
 namespace tinsmith {
 namespace {
 
@@ -29,21 +27,6 @@ void add_counts(Certificate& sum, const Certificate& other) {
         &Certificate::non_manifold_vertices, &Certificate::t_junctions, &Certificate::unwelded_edges,
         &Certificate::components, &Certificate::color_samples})
     sum.*count += other.*count;
-}
-
-std::uint64_t count_linked(const std::vector<Link>& links) {
-  std::vector<std::uint32_t> triangles;
-  triangles.reserve(2 * links.size());
-  for (const Link& link : links) triangles.insert(triangles.end(), link.begin(), link.end());
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  const auto index = [&](std::uint32_t triangle) {
-    return static_cast<std::uint32_t>(std::lower_bound(triangles.begin(), triangles.end(), triangle) -
-                                      triangles.begin());
-  };
-  Sets sets(triangles.size());
-  for (const auto& [a, b] : links) sets.unite(index(a), index(b));
-  return sets.count();
 }
 
 }  // namespace
@@ -94,12 +77,10 @@ void Findings::add(const Findings& other) {
   n_colour_differences += other.n_colour_differences;
   squared_colour.add(other.squared_colour);
   counts.color_max_error = std::max(counts.color_max_error, other.counts.color_max_error);
-  links.insert(links.end(), other.links.begin(), other.links.end());
 }
 
 Certificate certificate_of(const Findings& findings, double metres_per_vertical_unit) {
   Certificate certificate = findings.counts;
-  certificate.components += count_linked(findings.links);
   certificate.area_plan = findings.area_plan.value();
   certificate.area_valid = findings.area_valid.value();
   certificate.cells_plan = findings.cells_plan.value();

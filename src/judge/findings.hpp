@@ -26,9 +26,6 @@ class ErrorHistogram {
   std::vector<std::uint64_t> counts_ = std::vector<std::uint64_t>(std::size_t{1} << (63 - kShift), 0);
 };
 
-/// Two triangles of one part of the mesh.
-using Link = std::array<std::uint32_t, 2>;
-
 struct Findings {
   Certificate counts;  // its whole numbers, and the largest error in vertical units with its place
   std::uint64_t n_errors = 0;
@@ -42,7 +39,6 @@ struct Findings {
   ExactSum cells_valid;
   std::uint64_t n_colour_differences = 0;
   ExactSum squared_colour;  // levels
-  std::vector<Link> links;  // of triangles that several blocks see, each at least once, be it with itself
 
   void add_error(double size_and_sign, std::int32_t x, std::int32_t y);
   void add_colour_difference(double size);

@@ -58,7 +58,7 @@ void measure_block(BlockedMesh& mesh, BlockNumber number, const Samples& samples
   const std::vector<Facet> facets = mesh.take(number);
   const Block block{mesh.grid(), mesh.grid().extent_of(number), facets};
   measure_areas(block, samples.frame, findings);
-  measure_border(block, measure_topology(block, findings), findings);
+  measure_border(block, measure_topology(block, mesh.shared_parts(), findings), findings);
   measure_coverage(mesh.grid().samples_of(number), facets, samples.field, samples.frame, findings);
   if (samples.colours == nullptr) return;
   measure_colours(mesh.grid().samples_of(number), {facets, mesh.take_colours(number)}, samples, findings);
@@ -67,6 +67,7 @@ void measure_block(BlockedMesh& mesh, BlockNumber number, const Samples& samples
 Certificate conclude(const BlockedMesh& mesh, Findings findings, const GridFrame& frame) {
   findings.largest_height = std::max(findings.largest_height, mesh.largest_height());
   Certificate certificate = certificate_of(findings, frame.metres_per_vertical_unit);
+  certificate.components += mesh.shared_parts().count();
   certificate.vertices = mesh.n_vertices();
   certificate.triangles = mesh.n_triangles();
   return certificate;

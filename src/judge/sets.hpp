@@ -21,6 +21,11 @@ class Sets {
     const auto [low, high] = std::minmax({find(i), find(j)});
     parent_[high] = low;
   }
+  /// One more number, in a set of its own.
+  std::uint32_t add() {
+    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+    return parent_.back();
+  }
   std::uint64_t count() const {
     std::uint64_t n = 0;
     for (std::size_t i = 0; i < parent_.size(); ++i) n += parent_[i] == i;

@@ -109,28 +109,27 @@ std::uint64_t count_vertices_of_several_fans(const Block& block, Sets& corners) 
   return n;
 }
 
-/// A component that other blocks see too is linked by the first of its facets that they see.
-void add_components(const Block& block, Sets& facets, Findings& findings) {
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  std::vector<std::uint32_t> first_shared(block.facets.size(), kNone);
+void add_components(const Block& block, Sets& parts, SharedParts& shared, Findings& findings) {
+  std::vector<SharedParts::Member> members;
+  std::vector<std::uint8_t> is_shared(block.facets.size(), 0);  // by what stands for the part
   for (std::uint32_t f = 0; f < block.facets.size(); ++f) {
     if (block.grid.is_in_one_block(block.facets[f])) continue;
-    std::uint32_t& first = first_shared[facets.find(f)];
-    if (first == kNone) first = f;
-    findings.links.push_back({block.facets[first].number, block.facets[f].number});
+    members.push_back({f, parts.find(f)});
+    is_shared[members.back().part] = 1;
   }
+  shared.add(block.grid, block.facets, members);
   for (std::uint32_t f = 0; f < block.facets.size(); ++f)
-    if (facets.find(f) == f && first_shared[f] == kNone) ++findings.counts.components;
+    if (parts.find(f) == f && !is_shared[f]) ++findings.counts.components;
 }
 
 }  // namespace
 
-BorderEdges measure_topology(const Block& block, Findings& findings) {
+BorderEdges measure_topology(const Block& block, SharedParts& shared, Findings& findings) {
   Connections connections(block);
   connect_all(block, connections);
   findings.counts.non_manifold_edges += connections.n_non_manifold;
   findings.counts.non_manifold_vertices += count_vertices_of_several_fans(block, connections.corners);
-  add_components(block, connections.facets, findings);
+  add_components(block, connections.facets, shared, findings);
   return std::move(connections.border);
 }
 

@@ -9,6 +9,7 @@
 #include "judge/block_grid.hpp"
 #include "judge/findings.hpp"
 #include "judge/plan.hpp"
+#include "judge/shared_parts.hpp"
 
 namespace tinsmith {
 
@@ -25,9 +26,9 @@ struct Block {
 using BorderEdges = std::vector<std::uint32_t>;
 
 /// Adds non_manifold_edges (an edge is its lower vertex's block's), non_manifold_vertices, the components that lie
-/// in this block only, and links for the others. Gives the edges of one facet only, right for those that touch
+/// in this block only, and the others to `shared`. Gives the edges of one facet only, right for those that touch
 /// the block.
-BorderEdges measure_topology(const Block& block, Findings& findings);
+BorderEdges measure_topology(const Block& block, SharedParts& shared, Findings& findings);
 
 /// Adds t_junctions and unwelded_edges.
 void measure_border(const Block& block, const BorderEdges& border, Findings& findings);
