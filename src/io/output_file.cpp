@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "base/disk.hpp"
+#include "base/hash.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
@@ -31,13 +32,6 @@ std::string resolve(const std::string& path) {
 }
 
 constexpr std::string_view kSuffix = ".tmp";
-
-/// FNV-1a.
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
-}
 
 /// What the names of the target's temporary files begin with, without the folder; then come process, number and
 /// suffix. Short, so that a long name of the target can't make it too long for the file system.
@@ -80,6 +74,15 @@ void remove_abandoned(const std::string& target) {
   std::filesystem::directory_iterator files(parent.empty() ? "." : parent, error);
   for (; !error && files != std::filesystem::directory_iterator(); files.increment(error))
     if (is_temporary(files->path().filename().string(), prefix)) remove_if_abandoned(files->path().string());
+}
+
+/// So that the new name survives a power cut, too. A folder that can't be synced has the old or the new one.
+void sync_folder_of(const std::string& target) {
+  const std::string folder = std::filesystem::path(target).parent_path().string();
+  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
 }
 
 }  // namespace
@@ -147,6 +150,7 @@ void OutputFile::commit() {
   finish();
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
+  sync_folder_of(target_);
   // Not before, since this gives up the lock; what it could say, fsync has said.
   close(descriptor_);
   descriptor_ = -1;

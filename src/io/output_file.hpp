@@ -31,7 +31,8 @@ class OutputFile {
   /// finish() all of them before the first commit().
   void finish();
 
-  /// finish(), then renames.
+  /// finish(), then renames and brings the name to the disk: after a power cut the old or the new file is there,
+  /// whole.
   void commit();
 
  private:

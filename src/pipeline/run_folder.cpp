@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/disk.hpp"
+#include "base/hash.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
@@ -23,13 +24,16 @@ namespace fs = std::filesystem;
 constexpr const char* kIdentity = "run";
 constexpr const char* kLock = "lock";
 
-std::string folder_for(const std::string& output, const std::string& tmp) {
-  const fs::path target = fs::weakly_canonical(fs::absolute(output));
+fs::path target_of(const std::string& output) { return fs::weakly_canonical(fs::absolute(output)); }
+
+std::string in_use(const std::string& output) {
+  return fmt::format("{}: another run is at work on it; wait for it, or choose another output", output);
+}
+
+std::string folder_for(const fs::path& target, const std::string& tmp) {
   if (tmp.empty()) return (target.parent_path() / ("." + target.filename().string() + ".tinsmith")).string();
-  // FNV-1a: the same name for the same path, on any machine.
-  std::uint64_t hash = 0xCBF29CE484222325;
-  for (const char c : target.string()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3;
-  return (fs::path(tmp) / fmt::format("{}-{:016x}.tinsmith", target.filename().string(), hash)).string();
+  return (fs::path(tmp) / fmt::format("{}-{:016x}.tinsmith", target.filename().string(), hash_of(target.string())))
+      .string();
 }
 
 std::string text_of(const Identity& identity) { return fmt::format("{}\n", fmt::join(identity, "\n")); }
@@ -55,7 +59,9 @@ std::string difference(const Identity& was, const Identity& now) {
 }  // namespace
 
 RunFolder::RunFolder(const std::string& output, const std::string& tmp, const Identity& identity, bool fresh)
-    : path_(folder_for(output, tmp)) {
+    : output_lock_(target_of(output).parent_path().string(), target_of(output).filename().string()),
+      path_(folder_for(target_of(output), tmp)) {
+  if (!output_lock_.is_held()) throw OutputError(in_use(output));
   do {
     std::error_code error;
     fs::create_directories(path_, error);
@@ -75,8 +81,7 @@ RunFolder::Lock::Lock(const std::string& file, const std::string& output)
   // Any other failure: a file system without locks.
   if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(descriptor_);
-  throw OutputError(fmt::format(
-      "{}: another run is at work on it (it holds {}); wait for it, or choose another output", output, file));
+  throw OutputError(in_use(output));
 }
 
 RunFolder::Lock::~Lock() { close(descriptor_); }

@@ -5,14 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "base/name_lock.hpp"
+
 namespace tinsmith {
 
 /// What the result depends on, a line each as "name: value": a run goes on only from work with the same lines.
 using Identity = std::vector<std::string>;
 
 /// A folder `.NAME.tinsmith` beside the output, or in `tmp` when that is given (with a name of its own for each
-/// output's path). One run at a time holds it. What it holds survives the end of the run, unless remove() was
-/// called or nothing was done yet.
+/// output's path). One run at a time holds it, and one run at a time holds the output, whatever its folder. What it
+/// holds survives the end of the run, unless remove() was called or nothing was done yet.
 class RunFolder {
  public:
   /// Takes over what is there when the identity is the same, or `fresh` says that it is to be thrown away.
@@ -48,6 +50,7 @@ class RunFolder {
   bool has_work() const;
   void make_empty();
 
+  NameLock output_lock_;  // runs with other folders see each other, too
   std::string path_;
   std::optional<Lock> lock_;
 };

@@ -1,5 +1,7 @@
 // Two runs at once, and runs that find another world than the one they left.
 
+#include <array>
+
 #include "cli/faults_fixture.hpp"
 
 namespace tinsmith::test {
@@ -38,6 +40,31 @@ TEST_F(Faults, ASecondRunOnOneOutputIsRefusedAndTheFirstGoesOn) {
   EXPECT_EQ(wait_for(first).exit_code, 0);
   EXPECT_TRUE(text_of(output()) == bytes);
   EXPECT_FALSE(fs::exists(work()));
+}
+
+TEST_F(Faults, ASecondRunIsRefusedWhereverItsUnfinishedWorkIs) {
+  const std::string bytes = undisturbed(words());
+  fs::create_directories(path("elsewhere"));
+  Words with_tmp = words();
+  with_tmp.insert(with_tmp.end(), {"--tmp", path("elsewhere")});
+  const std::array<std::array<Words, 2>, 2> pairs{{{words(), with_tmp}, {with_tmp, words()}}};
+  for (const auto& [one, other] : pairs) {
+    const Running first = start(one, {}, "said.first");
+    const std::string work_of_one = one.size() == words().size() ? work() : path("elsewhere");
+    ASSERT_TRUE(while_it_stands(
+        first, [&] { return !work_files(work_of_one).empty(); },
+        [&] {
+          expect_no_output(run(other), {output(), "another run is at work"});
+        }));
+    EXPECT_EQ(wait_for(first).exit_code, 0);
+    EXPECT_TRUE(take_output() == bytes);
+  }
+  const Running killed = start(with_tmp);
+  ASSERT_TRUE(wait_until(killed, [&] { return !work_files(path("elsewhere")).empty(); }));
+  kill(killed.process, SIGKILL);
+  wait_for(killed);
+  EXPECT_EQ(files(), (std::vector<std::string>{"dem.tif", "elsewhere"})) << "beside the output nothing is left";
+  expect_goes_on(words(), bytes);
 }
 
 TEST_F(Faults, OtherOptionsNeedAFreshStart) {
