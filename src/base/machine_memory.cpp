@@ -1,6 +1,9 @@
 #include "base/machine_memory.hpp"
 
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <fstream>
@@ -59,6 +62,12 @@ std::uint64_t resident_memory() {
   std::uint64_t resident = 0;  // pages
   file >> all >> resident;
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+}
+
+void return_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace tinsmith

@@ -56,20 +56,66 @@ void require_colours(const std::string& mesh_path, const BlockedMesh& mesh) {
   throw InputError(mesh_path + ": has no colours to measure; leave --color, or make the mesh with it");
 }
 
-void add_file(const std::string& mesh_path, const Samples& samples, BlockedMesh& mesh) {
+/// Of the whole, reading the mesh is the first part, measuring the other.
+class ReadingProgress {
+ public:
+  explicit ReadingProgress(const Samples& samples) : samples_(samples) {}
+
+  void expect(std::uint64_t n_vertices, std::uint64_t n_triangles) {
+    n_expected_ = n_vertices + n_triangles;
+    const double reading = kSamplesPerElement * static_cast<double>(n_expected_);
+    share_ = reading / (reading + n_samples());
+  }
+  void add(std::size_t n_elements) {
+    n_read_ += n_elements;
+    const auto n_expected = static_cast<double>(std::max(n_expected_, n_read_));
+    report_progress(samples_, share_ * static_cast<double>(n_read_) / n_expected);
+  }
+  Progress of_measuring() const {
+    if (!samples_.progress) return {};
+    return [progress = samples_.progress, share = share_](double fraction, std::string_view stage) {
+      return progress(share + (1 - share) * fraction, stage);
+    };
+  }
+
+ private:
+  // A vertex or triangle takes as long to read and sort into blocks as so many samples to measure.
+  static constexpr double kSamplesPerElement = 6;
+
+  double n_samples() const {
+    const BlockGrid grid(samples_.field, samples_.block);
+    double n = 0;
+    for (const BlockNumber block : grid.blocks_with_samples(samples_.field))
+      n += static_cast<double>(grid.samples_of(block).area());
+    return std::max(n, 1.0);
+  }
+
+  const Samples& samples_;
+  double share_ = 0;  // of reading
+  std::uint64_t n_expected_ = 0;
+  std::uint64_t n_read_ = 0;
+};
+
+/// Gives the progress of what is left to do.
+Progress add_file(const std::string& mesh_path, const Samples& samples, BlockedMesh& mesh) {
+  ReadingProgress reading(samples);
   MeshVisitor visitor;
+  visitor.counts = [&](std::uint64_t n_vertices, std::uint64_t n_triangles) {
+    reading.expect(n_vertices, n_triangles);
+  };
   if (samples.colours != nullptr) visit_colours(mesh_path, *samples.colours, mesh, visitor);
   visitor.vertices = [&](std::span<const std::array<double, 3>> vertices) {
-    report_progress(samples, 0);
     mesh.add_vertices(vertices);
+    reading.add(vertices.size());
   };
   visitor.triangles = [&](std::span<const std::array<std::uint64_t, 3>> triangles) {
-    report_progress(samples, 0);
     for (const auto& triangle : triangles) mesh.add_triangle(triangle);
+    reading.add(triangles.size());
   };
   visit_mesh(mesh_path, visitor);
   if (samples.colours != nullptr) require_colours(mesh_path, mesh);
   mesh.close();
+  return reading.of_measuring();
 }
 
 std::string scratch_folder(const std::string& mesh_path, const VerifyOptions& options) {
@@ -86,13 +132,13 @@ Certificate verify(const std::vector<std::string>& inputs, const std::string& me
   const RasterField field(inputs, input_options);
   std::optional<ColourRaster> colours;
   if (!options.color.empty()) colours.emplace(options.color, field.frame(), field.width(), field.height());
-  const Samples samples{field, field.frame(), {}, options.progress, colours ? &*colours : nullptr};
+  Samples samples{field, field.frame(), {}, options.progress, colours ? &*colours : nullptr};
   const BlockGrid grid(field, samples.block);
   const std::uint64_t working = working_memory(memory);
   // Vertices are let go of before blocks are measured. Colours take up to two thirds as much again.
   const std::uint64_t share = colours ? working / 7 : working / 4;
   BlockedMesh mesh(grid, field.frame(), {share, share, scratch_folder(mesh_path, options)});
-  add_file(mesh_path, samples, mesh);
+  samples.progress = add_file(mesh_path, samples, mesh);
   return measure_blocks(mesh, samples, threads, working / 4 * 3);
 }
 
