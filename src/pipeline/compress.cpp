@@ -15,6 +15,7 @@
 #include "io/input_identity.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
+#include "pipeline/attempt_log.hpp"
 #include "pipeline/compress_options.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "pipeline/plan.hpp"
@@ -81,8 +82,24 @@ void require_triangles(const TerrainSurface& surface) {
         "the input has no 2 x 2 block of valid samples, so there is no surface; check --nodata, --band and --bbox");
 }
 
-// Where each attempt keeps its work: by its tolerance.
-using FolderOf = std::function<std::string(double tolerance)>;
+// Where attempts keep their work: each in a folder named by its tolerance.
+class AttemptFolders {
+ public:
+  explicit AttemptFolders(const RunFolder& folder) : folder_(folder), dropped_(folder.file("attempts")) {}
+
+  std::string folder(double tolerance) const { return folder_.subfolder(name(tolerance)); }
+  std::optional<Attempt> known(double tolerance) const { return dropped_.find(tolerance); }
+  void drop(const Attempt& attempt) {
+    dropped_.add(attempt);
+    folder_.remove_subfolder(name(attempt.tolerance));
+  }
+
+ private:
+  static std::string name(double tolerance) { return fmt::format("tolerance-{:a}", tolerance); }
+
+  const RunFolder& folder_;
+  AttemptLog dropped_;
+};
 
 // The stage under another name, which must outlive it.
 Progress renamed(const Progress& progress, const std::string& stage) {
@@ -100,24 +117,34 @@ Progress never_falling(const Progress& progress) {
   };
 }
 
-// Tolerances here are in the vertical unit of the field.
+// Tolerances here are in the vertical unit of the field. Without folders all is in memory.
 std::shared_ptr<const TerrainSurface> compress_field(const Target& target, const CompressOptions& options,
-                                                     const FolderOf& folder_of, CompressReport& report) {
+                                                     AttemptFolders* folders, CompressReport& report) {
   const double unit = target.frame.metres_per_vertical_unit;
   int n_tries = 0;
   const auto run = [&](double tolerance, CompressReport& of_run) {
     const std::string stage = options.max_error ? "simplify" : fmt::format("try {}", ++n_tries);
     const double rounding = rounding_of_format(target.field, target.output, tolerance);
-    const RoundsOptions rounds{tolerance - rounding, options.window,           options.placement,
-                               options.effort,       folder_of(tolerance),     target.chunk_memory,
-                               target.colours,       {options.color_tolerance}};
+    const std::string folder = folders != nullptr ? folders->folder(tolerance) : std::string();
+    const RoundsOptions rounds{
+        tolerance - rounding, options.window, options.placement,        options.effort, folder,
+        target.chunk_memory,  target.colours, {options.color_tolerance}};
     auto surface = run_rounds(target.field, target.frame, rounds, renamed(options.progress, stage), of_run);
     require_triangles(*surface);
     of_run.tolerance = tolerance * unit;
     return surface;
   };
   if (options.max_error) return run(*options.max_error / unit, report);
-  return search_tolerance(run, options.triangles, options.ratio, report);
+  Attempts attempts{run};
+  if (folders != nullptr) {
+    attempts.known = [&](double tolerance) {
+      const auto known = folders->known(tolerance);
+      if (known) ++n_tries;
+      return known;
+    };
+    attempts.drop = [&](const Attempt& attempt) { folders->drop(attempt); };
+  }
+  return search_tolerance(attempts, options.triangles, options.ratio, report);
 }
 
 std::string optional_line(const char* name, const std::optional<double>& value) {
@@ -146,11 +173,9 @@ Identity identity_of(const std::vector<std::string>& inputs, const InputOptions&
 void compress_and_write(const Target& target, const CompressOptions& options, const RunFolder& folder,
                         CompressReport& report) {
   constexpr int kMostRestarts = 10;
-  const FolderOf folder_of = [&](double tolerance) {
-    return folder.subfolder(fmt::format("tolerance-{:a}", tolerance));
-  };
+  AttemptFolders folders(folder);
   for (int restarts = 0;; ++restarts) {
-    const auto surface = compress_field(target, options, folder_of, report);
+    const auto surface = compress_field(target, options, &folders, report);
     try {
       write_mesh(target.output, ToldSurface(*surface, options.progress), target.frame);
       return;
@@ -214,8 +239,7 @@ Tin compress(const HeightArray& heights, const CompressOptions& options, Compres
   GridFrame frame;
   frame.geotransform = {-heights.step_x / 2, heights.step_x, 0, -heights.step_y / 2, 0, heights.step_y};
   CompressReport own;
-  const auto surface = compress_field(
-      {field, frame, {}}, options, [](double) { return std::string(); }, report ? *report : own);
+  const auto surface = compress_field({field, frame, {}}, options, nullptr, report ? *report : own);
   Tin tin;
   surface->for_each_vertex_block([&](TerrainSurface::VertexBlock block) {
     for (const TerrainVertex& vertex : block) {

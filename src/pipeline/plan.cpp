@@ -94,7 +94,7 @@ Trial try_out(const Outset& outset, CompressPlan& plan) {
   if (outset.options.max_error)
     surface = run(*outset.options.max_error / metres_per_unit(outset), report);
   else
-    surface = search_tolerance(run, outset.options.triangles, outset.options.ratio, report);
+    surface = search_tolerance({run}, outset.options.triangles, outset.options.ratio, report);
   if (last.cells == 0) plan.passes = 1;
   plan.tolerance = report.tolerance * metres_per_unit(outset);
   plan.expected_triangles = last.cells > 0 ? surface->extent().n_triangles : 0;

@@ -136,6 +136,11 @@ std::string RunFolder::subfolder(const std::string& name) const {
   return folder.string();
 }
 
+void RunFolder::remove_subfolder(const std::string& name) const {
+  std::error_code error;  // what can't be removed only takes room
+  fs::remove_all(fs::path(path_) / name, error);
+}
+
 void RunFolder::remove() {
   std::error_code error;  // what can't be removed is in nobody's way
   fs::remove_all(path_, error);

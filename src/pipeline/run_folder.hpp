@@ -27,6 +27,11 @@ class RunFolder {
   /// A folder within, made when it is not there: for one of several attempts.
   std::string subfolder(const std::string& name) const;
 
+  void remove_subfolder(const std::string& name) const;
+
+  /// A file within, for what is to be known of all attempts.
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
   /// The output is written: nothing of this is needed any more.
   void remove();
 

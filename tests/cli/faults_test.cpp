@@ -1,6 +1,7 @@
 // Two runs at once, and runs that find another world than the one they left.
 
 #include <array>
+#include <set>
 
 #include "cli/faults_fixture.hpp"
 
@@ -82,6 +83,22 @@ TEST_F(Faults, OtherOptionsNeedAFreshStart) {
   in_one_thread.insert(in_one_thread.end(), {"--threads", "1"});
   leave_unfinished(words());
   expect_goes_on(in_one_thread, bytes);  // what can't change the result may change
+}
+
+TEST_F(Faults, ASearchKeepsTheWorkOfOneAttemptAndGoesOn) {
+  const Words search{"compress", path("dem.tif"), output(), "--triangles", "3000", "--window", "32", "--no-verify"};
+  const std::string bytes = undisturbed(search);
+  finish_all_but_the_output(search);
+  std::set<fs::path> attempts;
+  for (const fs::path& file : work_files(work()))
+    if (file.parent_path() != work()) attempts.insert(file.parent_path());
+  EXPECT_EQ(attempts.size(), 1U);
+  expect_goes_on(search, bytes);
+  const Running killed = start(search);
+  ASSERT_TRUE(wait_until(killed, [&] { return fs::exists(work() + "/attempts"); }));
+  kill(killed.process, SIGKILL);
+  wait_for(killed);
+  expect_goes_on(search, bytes);
 }
 
 TEST_F(Faults, OtherInputsNeedAFreshStart) {
