@@ -29,6 +29,7 @@ check_packages='
   clang                   # the second compiler
   clang-format            # the form
   clang-tidy              # the static checks
+  libclang-rt-14-dev      # sanitizers and libFuzzer of the second compiler
 '
 
 say() { printf '== %s\n' "$*" >&2; }
