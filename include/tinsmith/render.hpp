@@ -12,7 +12,7 @@ namespace tinsmith {
 
 /// What to draw, side by side from left to right.
 enum class Panel {
-  kHillshade,  // of the samples, or of the mesh's triangles when there are none
+  kHillshade,  // of the samples, or of the mesh's triangles when there are none, in the colours of its vertices
   kWireframe,  // the mesh's edges over the hillshade; outline edges in another colour
   kError,      // z_TIN - z_sample in a diverging scale, with a legend in metres; voids hatched or grey
 };

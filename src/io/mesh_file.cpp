@@ -166,9 +166,15 @@ std::string visit_mesh(const std::string& path, const MeshVisitor& visitor) {
   return format->visit(path, checked);
 }
 
-Tin read_mesh(const std::string& path) {
+Tin read_mesh(const std::string& path, std::vector<Levels>* colours) {
   Tin tin;
   MeshVisitor visitor;
+  if (colours != nullptr) {
+    colours->clear();
+    visitor.colours = [&](std::span<const Levels> block, int /*n_channels*/) {
+      colours->insert(colours->end(), block.begin(), block.end());
+    };
+  }
   visitor.counts = [&](std::uint64_t n_vertices, std::uint64_t n_triangles) {
     require_numbers(path, n_vertices);
     tin.vertices.reserve(n_vertices);

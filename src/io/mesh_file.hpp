@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "geodesy/grid_frame.hpp"
 #include "geometry/colour.hpp"
@@ -51,8 +52,9 @@ void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFram
 /// Reads any of the written formats back, in the CRS and vertical unit of the input that it was made from
 /// (GLB: undoing the node's transform and the metres that its extras declare). Throws InputError, with the
 /// place of the damage, for anything that is not a whole, valid file: never crashes on garbage. Throws
-/// ResourceError when there are more vertices than a Tin can number. Leaves colours out.
-Tin read_mesh(const std::string& path);
+/// ResourceError when there are more vertices than a Tin can number. `colours`, when given, gets the levels of red,
+/// green and blue of all vertices, or nothing where the file has none.
+Tin read_mesh(const std::string& path, std::vector<Levels>* colours = nullptr);
 
 /// The same block by block, in a few MB for meshes that need not fit in memory: all vertices in their order, then
 /// all triangles in theirs. Everything is checked before it is handed over.

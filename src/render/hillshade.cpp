@@ -27,6 +27,9 @@ constexpr double kMostExaggeration = 20;
 // level, as the Dead Sea's shore at -430 m, is no such thing.
 constexpr double kDeepSea = -1000;
 
+// An ortho has shadows of its own: the relief is laid over it lightly.
+constexpr double kReliefOfColours = 0.5;
+
 struct Slope {
   double east = 0;
   double north = 0;
@@ -67,6 +70,12 @@ Colour tint_of(double z, double lowest, double highest) {
   return hypsometric_tint(highest > shore ? (z - shore) / (highest - shore) : 0);
 }
 
+Colour tint_of(const PixelColours& colours, std::size_t i) {
+  const auto& [red, green, blue] = colours.channels;
+  constexpr double kFullLevel = 255;
+  return {red.value[i] / kFullLevel, green.value[i] / kFullLevel, blue.value[i] / kFullLevel};
+}
+
 double root_mean_square(const std::vector<Slope>& slopes) {
   double sum = 0;
   for (const Slope& s : slopes) sum += s.east * s.east + s.north * s.north;
@@ -75,7 +84,8 @@ double root_mean_square(const std::vector<Slope>& slopes) {
 
 }  // namespace
 
-Surface draw_hillshade(const View& view, const GridFrame& frame, const PixelGrid& heights) {
+Surface draw_hillshade(const View& view, const GridFrame& frame, const PixelGrid& heights,
+                       const std::optional<PixelColours>& colours) {
   std::vector<Slope> slopes(heights.value.size());
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
@@ -91,6 +101,12 @@ Surface draw_hillshade(const View& view, const GridFrame& frame, const PixelGrid
   }
   const double steepness = root_mean_square(slopes);
   const double exaggeration = steepness > 0 ? std::clamp(kSlopeThatReads / steepness, 1.0, kMostExaggeration) : 1;
+  if (colours) {
+    return paint(heights, [&](std::size_t i) {
+      const Colour tint = tint_of(*colours, i);
+      return mix(tint, lit(tint, illumination(slopes[i], exaggeration)), kReliefOfColours);
+    });
+  }
   return paint(heights, [&](std::size_t i) {
     return lit(tint_of(heights.value[i], lowest, highest), illumination(slopes[i], exaggeration));
   });

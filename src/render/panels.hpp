@@ -4,6 +4,7 @@
 #include <cairo.h>
 
 #include <memory>
+#include <optional>
 
 #include "geodesy/grid_frame.hpp"
 #include "render/pixel_grid.hpp"
@@ -19,8 +20,10 @@ using Pen = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 Surface make_surface(int width, int height, cairo_format_t format = CAIRO_FORMAT_RGB24);
 Pen make_pen(const Surface& surface);
 
-/// Shaded relief (Horn's slopes, sun in the north-west at 45 degrees) over a tint by height; voids grey.
-Surface draw_hillshade(const View& view, const GridFrame& frame, const PixelGrid& heights);
+/// Shaded relief (Horn's slopes, sun in the north-west at 45 degrees) over a tint by height, or over colours when
+/// there are some; voids grey.
+Surface draw_hillshade(const View& view, const GridFrame& frame, const PixelGrid& heights,
+                       const std::optional<PixelColours>& colours);
 
 /// Errors (metres) on the diverging scale whose ends are at -scale and scale; voids grey.
 Surface draw_errors(const PixelGrid& errors, double scale);

@@ -147,6 +147,16 @@ PixelGrid mesh_heights(const View& view, const Tin& tin, double metres_per_verti
   return pixels;
 }
 
+PixelColours mesh_colours(const View& view, const Tin& tin, const std::vector<Levels>& colours,
+                          const Stage& stage) {
+  Tin flat = tin;  // with a level in place of each height
+  const auto channel = [&](std::size_t c) {
+    for (std::size_t v = 0; v < colours.size(); ++v) flat.vertices[v][2] = static_cast<double>(colours[v][c]);
+    return mesh_heights(view, flat, 1, stage);
+  };
+  return {{channel(0), channel(1), channel(2)}};
+}
+
 PixelGrid largest_errors(const View& view, const RasterField& field, const Tin& tin, const Stage& stage) {
   PixelGrid pixels(view.width, view.height);
   const GridFrame& frame = field.frame();

@@ -1,10 +1,12 @@
 #pragma once
 // One number for each pixel of a view: heights of the samples, heights of a mesh, errors of a mesh.
 
+#include <array>
 #include <limits>
 #include <string_view>
 #include <vector>
 
+#include "geometry/colour.hpp"
 #include "io/raster_field.hpp"
 #include "render/plan_tin.hpp"
 #include "render/view.hpp"
@@ -44,6 +46,12 @@ PixelGrid sample_heights(const View& view, const RasterField& field, const Stage
 
 /// The mesh's heights, averaged over several places in each pixel.
 PixelGrid mesh_heights(const View& view, const Tin& tin, double metres_per_vertical_unit, const Stage& stage);
+
+/// Levels of red, green and blue between those of the mesh's vertices, averaged like its heights.
+struct PixelColours {
+  std::array<PixelGrid, 3> channels;
+};
+PixelColours mesh_colours(const View& view, const Tin& tin, const std::vector<Levels>& colours, const Stage& stage);
 
 /// z_TIN - z_sample at the sample under each pixel where it is largest in size. Every sample in the view has
 /// its say in at least one pixel, so the largest value of the picture is the largest error.

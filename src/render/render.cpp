@@ -25,7 +25,8 @@ constexpr int kWidest = 16384;
 struct Scene {
   std::unique_ptr<RasterField> field;  // empty: no raster
   std::optional<Tin> tin;
-  GridFrame frame;  // of the raster, else made for the mesh
+  std::vector<Levels> colours;  // of the mesh's vertices; empty: it has none, or a raster is drawn
+  GridFrame frame;              // of the raster, else made for the mesh
   View view;
   std::vector<Panel> panels;
 };
@@ -91,7 +92,7 @@ GridFrame frame_of(const Tin& tin, const std::string& path, const InputOptions& 
 Scene make_scene(const std::vector<std::string>& raster, const std::string& mesh, const RenderOptions& options) {
   Scene scene;
   scene.panels = panels_for(options.panels, !raster.empty(), !mesh.empty());
-  if (!mesh.empty()) scene.tin = read_mesh(mesh);
+  if (!mesh.empty()) scene.tin = read_mesh(mesh, raster.empty() ? &scene.colours : nullptr);
   Extent extent;
   if (!raster.empty()) {
     scene.field = std::make_unique<RasterField>(raster, options.input);
@@ -105,6 +106,21 @@ Scene make_scene(const std::vector<std::string>& raster, const std::string& mesh
     throw InputError(fmt::format("{}: nothing to draw there; the mesh has no area within the bbox", mesh));
   scene.view = make_view(scene.frame, extent, options.panel_width);
   return scene;
+}
+
+// What the relief is drawn from.
+struct Ground {
+  PixelGrid heights;
+  std::optional<PixelColours> colours;
+};
+
+// Of the samples, or of the mesh when there are none, in the stages from the first on.
+Ground make_ground(const Scene& scene, Stage stage) {
+  if (scene.field) return {sample_heights(scene.view, *scene.field, stage), std::nullopt};
+  Ground ground{mesh_heights(scene.view, *scene.tin, scene.frame.metres_per_vertical_unit, stage), std::nullopt};
+  ++stage.number;
+  if (!scene.colours.empty()) ground.colours = mesh_colours(scene.view, *scene.tin, scene.colours, stage);
+  return ground;
 }
 
 // "176 to 4487 m"
@@ -122,17 +138,17 @@ std::string grouped(std::size_t number) {
   return digits;
 }
 
-CaptionedPanel hillshade_panel(const Scene& scene, const PixelGrid& heights) {
+CaptionedPanel hillshade_panel(const Scene& scene, const Ground& ground) {
   const std::string what =
       scene.field ? fmt::format("{} x {} samples", grouped(scene.field->width()), grouped(scene.field->height()))
                   : fmt::format("{} triangles", grouped(scene.tin->triangles.size()));
-  return {draw_hillshade(scene.view, scene.frame, heights), scene.field ? "Samples" : "TIN",
-          fmt::format("{}, {}", what, height_range(heights)), std::nullopt,
+  return {draw_hillshade(scene.view, scene.frame, ground.heights, ground.colours), scene.field ? "Samples" : "TIN",
+          fmt::format("{}, {}", what, height_range(ground.heights)), std::nullopt,
           metres_per_pixel(scene.view, scene.frame, scene.view.height / 2)[0]};
 }
 
-CaptionedPanel wireframe_panel(const Scene& scene, const PixelGrid& heights) {
-  CaptionedPanel panel{draw_hillshade(scene.view, scene.frame, heights), "TIN, wireframe",
+CaptionedPanel wireframe_panel(const Scene& scene, const Ground& ground) {
+  CaptionedPanel panel{draw_hillshade(scene.view, scene.frame, ground.heights, ground.colours), "TIN, wireframe",
                        fmt::format("{} triangles, {} vertices", grouped(scene.tin->triangles.size()),
                                    grouped(scene.tin->vertices.size())),
                        std::nullopt, std::nullopt};
@@ -158,19 +174,16 @@ void render(const std::vector<std::string>& raster, const std::string& mesh, con
   const OutputFile probe(png);  // a folder that can't be written is found before the work, not after it
   const Scene scene = make_scene(raster, mesh, options);
   const bool has_error = std::count(scene.panels.begin(), scene.panels.end(), Panel::kError) > 0;
-  const int n_stages = has_error ? 2 : 1;
-  const Stage first{&options.progress, 0, n_stages};
-  const PixelGrid heights = scene.field
-                                ? sample_heights(scene.view, *scene.field, first)
-                                : mesh_heights(scene.view, *scene.tin, scene.frame.metres_per_vertical_unit, first);
+  const int n_stages = has_error || !scene.colours.empty() ? 2 : 1;
+  const Ground ground = make_ground(scene, {&options.progress, 0, n_stages});
   std::vector<CaptionedPanel> drawn;
   for (const Panel panel : scene.panels) {
     switch (panel) {
       case Panel::kHillshade:
-        drawn.push_back(hillshade_panel(scene, heights));
+        drawn.push_back(hillshade_panel(scene, ground));
         break;
       case Panel::kWireframe:
-        drawn.push_back(wireframe_panel(scene, heights));
+        drawn.push_back(wireframe_panel(scene, ground));
         break;
       case Panel::kError:
         drawn.push_back(error_panel(

@@ -133,6 +133,24 @@ TEST(ErrorMap, IsBlueWhereTheMeshIsTooLowAndRedWhereItIsTooHigh) {
   EXPECT_GT(high.r, high.b + 80);
 }
 
+TEST(Render, DrawsAMeshInItsColours) {
+  const Scratch scratch;
+  const RasterRecipe flat{33, 33, [](int, int) { return 5.0; }};
+  TerrainMesh mesh = test::thinned_grid(flat, 4);
+  mesh.n_channels = 3;
+  for (const LatticePoint& place : mesh.position)
+    mesh.colour.push_back(place.x <= 16 * kLatticePerCell ? Levels{200, 40, 10} : Levels{10, 60, 220});
+  RenderOptions options;
+  options.panel_width = 320;
+  for (const std::string name : {"flat.ply", "flat.glb"}) {
+    write_mesh(scratch.path(name), mesh, test::frame_of(flat));
+    render({}, scratch.path(name), scratch.path("out.png"), options);
+    const Picture picture = Picture::load(scratch.path("out.png"));
+    EXPECT_EQ(picture.at(kMargin + 80, kMargin + 160), (Rgb{200, 40, 10})) << name;
+    EXPECT_EQ(picture.at(kMargin + 240, kMargin + 160), (Rgb{10, 60, 220})) << name;
+  }
+}
+
 TEST(Render, DrawsEveryPanelThatTheInputsAllow) {
   const Scratch scratch;
   const RasterRecipe recipe = hill();

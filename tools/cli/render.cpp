@@ -28,7 +28,7 @@ usage: tinsmith render INPUT... OUT.png
 
 Draws panels side by side, north up, each with a caption:
   hillshade   of the samples, or of the mesh when no raster is given: sun in the north-west, 45 degrees high,
-              over a tint by height; flat land is exaggerated
+              over a tint by height, or over the mesh's colours if it has some; flat land is exaggerated
   wireframe   the edges of the mesh over the hillshade, outlines in red
   error       z_TIN - z_sample in metres from blue (the mesh is too low) to red (too high), with a legend; each
               pixel shows the largest error under it

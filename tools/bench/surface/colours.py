@@ -40,7 +40,7 @@ def _write(path, vertices, triangles, colours):
     path.write_bytes(header.encode() + point.tobytes() + face.tobytes())
 
 
-def _read(path):
+def read(path):
     """Vertices, triangles, colours in [0, 1]."""
     reader = vtkPLYReader()
     reader.SetFileName(str(path))
@@ -75,7 +75,7 @@ def _options(form):
 
 def _rows(build, name, mesh, share):
     path, out = build / "surface" / f"{name}.ply", build / "surface" / "result.ply"
-    vertices, triangles, colours = _read(path)
+    vertices, triangles, colours = read(path)
     places, sampled = _coloured_samples(vertices, triangles, colours)
     tree = cKDTree(places)
     first = None
@@ -83,7 +83,7 @@ def _rows(build, name, mesh, share):
         run = subprocess.run([build / "tinsmith", "simplify", path, out, "--triangles",
                               str(round(len(triangles) * share / 100)), "--json", "-", *_options(form)],
                              check=True, capture_output=True, text=True)
-        result = _read(out)
+        result = read(out)
         colour = _colour_error(tree, sampled, result)
         rms = judge.distance((vertices, triangles), result[:2])[1] / mesh["diagonal"]
         first = first or (colour, rms)
