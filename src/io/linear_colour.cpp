@@ -8,7 +8,7 @@ namespace tinsmith {
 namespace {
 
 constexpr double kFullLevel = 255;
-constexpr double kFullShare = 65535;
+constexpr int kFullShare = 65535;
 
 // IEC 61966-2-1: a straight line at the dark end, a power beyond.
 constexpr double kLine = 12.92, kLineEnd = 0.04045;
@@ -16,8 +16,8 @@ constexpr double kOffset = 0.055, kPower = 2.4;
 
 std::vector<float> levels_of_all_shares() {
   std::vector<float> levels;
-  for (double share = 0; share <= kFullShare; ++share)
-    levels.push_back(static_cast<float>(level_of_light(share / kFullShare)));
+  for (int share = 0; share <= kFullShare; ++share)
+    levels.push_back(static_cast<float>(level_of_light(share / double{kFullShare})));
   return levels;
 }
 
