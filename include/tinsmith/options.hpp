@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -59,6 +60,7 @@ struct CompressOptions {
   std::string tmp;           // folder for unfinished work; empty: beside the output; never changes the result
   bool fresh = false;        // throw away the unfinished work of another run on the same output
   Progress progress;         // empty: silent
+  std::function<void(const std::string&)> doubt;  // told before the work where the disks may not suffice
 };
 
 }  // namespace tinsmith

@@ -40,11 +40,12 @@ struct CompressPlan {
   std::uint64_t free_scratch = 0;
   std::string output_folder;
   std::uint64_t free_output = 0;
+  std::vector<std::string> doubts;  // where less is free than expected, a sentence each
 };
 
 /// Does none of the work but for up to nine windows, which lie apart from each other. Throws like compress(), and
-/// ResourceError for what can't fit: the memory, and the free space or the output's format when not even half of
-/// the estimate fits.
+/// ResourceError for what can't fit: the memory, the output's format when not even half of the estimate fits, the
+/// disks when not even a quarter does.
 CompressPlan plan(const std::vector<std::string>& inputs, const std::string& output,
                   const InputOptions& input_options, const CompressOptions& options);
 

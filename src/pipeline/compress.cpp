@@ -206,8 +206,10 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
       field, {options.window, thread_count(options), options.memory, colours ? colours->n_channels() : 0});
   set_raster_cache(memory.raster_cache);
   const Target target{field, field.frame(), output, memory.chunks, colours ? &*colours : nullptr};
-  if (options.max_error) require_format_may_hold(field, output, options, target.colours);
   RunFolder folder(output, options.tmp, identity_of(inputs, input_options, options, target), options.fresh);
+  for (const std::string& doubt :
+       require_result_may_fit({field, output, options, target.colours, memory}, folder.size_bytes()))
+    if (options.doubt) options.doubt(doubt);
   CompressReport report;
   try {
     compress_and_write(target, options, folder, report);

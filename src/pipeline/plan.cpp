@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 
 #include "io/colour_raster.hpp"
@@ -13,6 +12,7 @@
 #include "judge/plan.hpp"
 #include "pipeline/compress_options.hpp"
 #include "pipeline/memory_plan.hpp"
+#include "pipeline/room.hpp"
 #include "pipeline/search.hpp"
 #include "pipeline/trial.hpp"
 #include "tinsmith/error.hpp"
@@ -21,8 +21,6 @@
 namespace tinsmith {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 // A surface of which the size is known, not the triangles.
 class ExpectedSurface : public TerrainSurface {
@@ -38,6 +36,8 @@ class ExpectedSurface : public TerrainSurface {
  private:
   TerrainExtent extent_;
 };
+
+int n_channels(const ColourField* colours) { return colours != nullptr ? colours->n_channels() : 0; }
 
 // What is known before any window is tried.
 struct Outset {
@@ -102,11 +102,14 @@ Trial try_out(const Outset& outset, CompressPlan& plan) {
   return last;
 }
 
+constexpr double kBytesPerTriangle = 12 + 17 / 2.0;  // see append_chunk: two triangles a vertex
+// In two rounds at a time, with the judge's; entries of the index and colours are less.
+constexpr std::uint64_t kMostScratchPerTriangle = 64 + sizeof(Facet);
+
 // Finished windows in the folder: the result, and those of the rounds before that still wait to be read, of some
 // rows of windows. Then the judge, if the mesh does not fit into its memory.
 std::uint64_t scratch_of(const CompressPlan& plan, const Outset& outset, const Trial& trial) {
-  constexpr double kBytesPerTriangle = 12 + 17 / 2.0;  // see append_chunk: two triangles a vertex
-  constexpr double kBytesPerEntry = 150;               // of the index
+  constexpr double kBytesPerEntry = 150;  // of the index
   constexpr double kRowsWaiting = 3;
   const double rows = outset.graph.windows(0).rows;
   const double n_windows = static_cast<double>(plan.windows);
@@ -116,45 +119,24 @@ std::uint64_t scratch_of(const CompressPlan& plan, const Outset& outset, const T
                                           first * std::min(1.0, kRowsWaiting / rows)) +
                      kBytesPerEntry * n_windows * plan.rounds;
   const double judge = static_cast<double>(plan.expected_triangles) * sizeof(Facet);
-  return static_cast<std::uint64_t>(judge > static_cast<double>(plan.memory) / 4 ? std::max(run, judge) : run);
+  const double while_judged = kBytesPerTriangle * static_cast<double>(plan.expected_triangles) + judge;
+  return static_cast<std::uint64_t>(judge > static_cast<double>(plan.memory) / 4 ? std::max(run, while_judged)
+                                                                                 : run);
 }
 
 // Everything takes what it holds, and no more than it may.
 std::uint64_t peak_of(const CompressPlan& plan, const Trial& trial) {
-  constexpr double kBytesPerVertex = 206;  // at work: see memory_plan.cpp
-  constexpr double kBytesPerTriangle = 12 + 25 / 2.0;
+  constexpr double kBytesPerVertex = 206;       // at work: see memory_plan.cpp
+  constexpr double kBytesHeld = 12 + 25 / 2.0;  // by triangle
   const double n_tried = static_cast<double>(std::max<std::uint64_t>(trial.n_windows, 1));
   const double samples =
       static_cast<double>(plan.samples) / static_cast<double>(std::max<std::uint64_t>(plan.windows, 1));
   const double at_work =
       plan.threads * (trial.most_start_triangles / 2 * kBytesPerVertex + samples * sizeof(double));
-  const double chunks = kBytesPerTriangle * trial.first_triangles / n_tried * static_cast<double>(plan.windows);
+  const double chunks = kBytesHeld * trial.first_triangles / n_tried * static_cast<double>(plan.windows);
   return plan.memory_program + std::min(plan.memory_windows, static_cast<std::uint64_t>(at_work)) +
          std::min(plan.memory_chunks, static_cast<std::uint64_t>(chunks)) +
          std::min(plan.memory_raster_cache, plan.samples * sizeof(float));
-}
-
-std::string folder_of(const std::string& file) {
-  const fs::path folder = fs::absolute(file).parent_path();
-  return folder.string();
-}
-
-std::uint64_t free_space(const std::string& folder) {
-  std::error_code error;
-  const fs::space_info space = fs::space(folder, error);
-  if (error)
-    throw OutputError(
-        fmt::format("{}: can't be used: {}; make the folder or choose another", folder, error.message()));
-  return space.available;
-}
-
-std::string megabytes(std::uint64_t bytes) { return fmt::format("{} MB", (bytes + 999999) / 1000000); }
-
-void require_room(const std::string& folder, std::uint64_t free, std::uint64_t expected, const char* what,
-                  const char* remedy) {
-  if (expected / 2 <= free) return;
-  throw ResourceError(fmt::format("{}: about {} of {} are expected and {} are free; make room, {}", folder,
-                                  megabytes(expected), what, megabytes(free), remedy));
 }
 
 void require_format_holds_half(const std::string& output, const CompressPlan& plan) {
@@ -168,14 +150,6 @@ bool holds(const std::string& output, std::uint64_t n_triangles) {
   } catch (const ResourceError&) {
     return false;
   }
-}
-
-// Certain is what half of the estimate is too much for.
-void require_fit(const CompressPlan& plan, const std::string& output) {
-  require_room(plan.scratch_folder, plan.free_scratch, plan.expected_scratch, "unfinished work",
-               "or choose another folder with --tmp");
-  require_room(plan.output_folder, plan.free_output, plan.expected_output, "output", "or write elsewhere");
-  require_format_holds_half(output, plan);
 }
 
 CompressPlan plan_of(const Outset& outset, const MemoryPlan& memory) {
@@ -196,17 +170,34 @@ CompressPlan plan_of(const Outset& outset, const MemoryPlan& memory) {
   return plan;
 }
 
+CompressPlan estimate(const Outset& outset, const MemoryPlan& memory, const std::string& output) {
+  CompressPlan plan = plan_of(outset, memory);
+  const Trial trial = try_out(outset, plan);
+  plan.tried_windows = trial.n_windows;
+  plan.expected_output =
+      expected_mesh_bytes(output, plan.expected_triangles / 2, plan.expected_triangles, n_channels(outset.colours));
+  plan.expected_scratch = scratch_of(plan, outset, trial);
+  plan.expected_peak_memory = peak_of(plan, trial);
+  look_for_room(output, outset.options.tmp, plan);
+  return plan;
+}
+
 }  // namespace
 
-void require_format_may_hold(const RasterField& field, const std::string& output, const CompressOptions& options,
-                             const ColourField* colours) {
-  const auto n_samples = static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height());
-  if (holds(output, 2 * n_samples)) return;
-  const Outset outset = outset_of(field, options, colours);
-  CompressPlan plan;
-  plan.threads = 1;
-  try_out(outset, plan);
-  require_format_holds_half(output, plan);
+std::vector<std::string> require_result_may_fit(const RunToPlan& run, std::uint64_t work_there) {
+  const auto n_samples =
+      static_cast<std::uint64_t>(run.field.width()) * static_cast<std::uint64_t>(run.field.height());
+  CompressPlan most;
+  look_for_room(run.output, run.options.tmp, most);
+  most.expected_output = expected_mesh_bytes(run.output, n_samples, 2 * n_samples, n_channels(run.colours));
+  most.expected_scratch = 2 * n_samples * kMostScratchPerTriangle;
+  const bool has_format = !run.options.max_error || holds(run.output, 2 * n_samples);
+  if (has_format && most.expected_output + most.expected_scratch <= std::min(most.free_scratch, most.free_output))
+    return {};
+  const Outset outset = outset_of(run.field, run.options, run.colours);
+  const CompressPlan plan = estimate(outset, run.memory, run.output);
+  if (run.options.max_error) require_format_holds_half(run.output, plan);
+  return require_room(plan, work_there);
 }
 
 CompressPlan plan(const std::vector<std::string>& inputs, const std::string& output,
@@ -217,23 +208,14 @@ CompressPlan plan(const std::vector<std::string>& inputs, const std::string& out
   const RasterField field(inputs, input_options);
   std::optional<ColourRaster> colours;
   if (!options.color.empty()) colours.emplace(options.color, field.frame(), field.width(), field.height());
-  const int n_channels = colours ? colours->n_channels() : 0;
-  require_format_holds_colour(output, n_channels);
-  const MemoryPlan memory = plan_memory(field, {options.window, thread_count(options), options.memory, n_channels});
-  set_raster_cache(memory.raster_cache);
   const Outset outset = outset_of(field, options, colours ? &*colours : nullptr);
-  CompressPlan plan = plan_of(outset, memory);
-  const Trial trial = try_out(outset, plan);
-  plan.tried_windows = trial.n_windows;
-  plan.expected_output =
-      expected_mesh_bytes(output, plan.expected_triangles / 2, plan.expected_triangles, n_channels);
-  plan.expected_scratch = scratch_of(plan, outset, trial);
-  plan.expected_peak_memory = peak_of(plan, trial);
-  plan.output_folder = folder_of(output);
-  plan.scratch_folder = options.tmp.empty() ? plan.output_folder : options.tmp;
-  plan.free_scratch = free_space(plan.scratch_folder);
-  plan.free_output = free_space(plan.output_folder);
-  require_fit(plan, output);
+  const int channels = n_channels(outset.colours);
+  require_format_holds_colour(output, channels);
+  const MemoryPlan memory = plan_memory(field, {options.window, thread_count(options), options.memory, channels});
+  set_raster_cache(memory.raster_cache);
+  CompressPlan plan = estimate(outset, memory, output);
+  plan.doubts = require_room(plan, 0);
+  require_format_holds_half(output, plan);
   return plan;
 }
 

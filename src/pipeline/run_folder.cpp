@@ -136,6 +136,15 @@ std::string RunFolder::subfolder(const std::string& name) const {
   return folder.string();
 }
 
+std::uint64_t RunFolder::size_bytes() const {
+  std::error_code error;
+  std::uint64_t size = 0;
+  for (fs::recursive_directory_iterator entry(path_, error); !error && entry != fs::end(entry);
+       entry.increment(error))
+    size += file_size_or_zero(entry->path().string());
+  return size;
+}
+
 void RunFolder::remove_subfolder(const std::string& name) const {
   std::error_code error;  // what can't be removed only takes room
   fs::remove_all(fs::path(path_) / name, error);

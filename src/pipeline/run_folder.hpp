@@ -1,6 +1,7 @@
 #pragma once
 // Where a run keeps its finished work until the output is written.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ class RunFolder {
 
   /// A folder within, made when it is not there: for one of several attempts.
   std::string subfolder(const std::string& name) const;
+
+  /// Of all files in it.
+  std::uint64_t size_bytes() const;
 
   void remove_subfolder(const std::string& name) const;
 

@@ -84,7 +84,7 @@ examples:
   tinsmith compress dem.vrt dem.2dm --max-error 0.5 --bbox 380000 5090000 390000 5100000 --json report.json
 
 exit codes: 0 done; 1 the certificate does not hold, or there is no such result; 2 wrong usage; 3 an input can't be
-used; 4 an output can't be written; 5 memory or the format does not suffice; 130 interrupted. Unless the exit code
+used; 4 an output can't be written; 5 memory, disks or the format don't suffice; 130 interrupted. Unless the exit code
 is 0 or 1, or it says that OUTPUT is written, what stood there before still stands there.
 )";
 
@@ -199,6 +199,7 @@ int plan_run(const Flags& flags, const std::string& output, const InputOptions& 
   options.progress = {};  // ends the line of the bar
   if (!flags.json.empty()) write_json(plan_report(planned, flags.files, output), flags.json);
   if (flags.json != "-") print_plan(planned, output, !flags.max_error);
+  print_remarks(planned.doubts, flags.quiet);
   return 0;
 }
 
@@ -230,6 +231,7 @@ int compress_rasters(Flags flags) {
   print_remarks(inputs.remarks, flags.quiet);
   options.progress = make_progress(progress, inputs.n_samples);
   if (flags.plan) return plan_run(flags, output, input_options, options);
+  options.doubt = [&](const std::string& doubt) { print_remarks({doubt}, flags.quiet); };
   double seconds = 0;
   std::optional<Certificate> certificate;
   const CompressReport compressed =

@@ -60,6 +60,7 @@ Json plan_report(const CompressPlan& plan, const std::vector<std::string>& input
   report["free_scratch_bytes"] = plan.free_scratch;
   report["output_folder"] = plan.output_folder;
   report["free_output_bytes"] = plan.free_output;
+  report["doubts"] = plan.doubts;
   return report;
 }
 
