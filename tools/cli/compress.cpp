@@ -219,6 +219,14 @@ std::vector<std::string> without(std::vector<std::string> remarks, const std::ve
   return remarks;
 }
 
+// As measured over 105 million and 1.07 billion samples of which 1 % remain. Attempts are not known beforehand.
+std::vector<StageShare> stages_of(const Flags& flags) {
+  if (flags.plan) return {};
+  std::vector<StageShare> stages{{"simplify", 0.855}, {"write", 0.01}};
+  if (!flags.no_verify) stages.push_back({"verify", 0.135});
+  return stages;
+}
+
 int compress_rasters(Flags flags) {
   const std::string output = flags.files.back();
   flags.files.pop_back();
@@ -229,7 +237,7 @@ int compress_rasters(Flags flags) {
   require_usable_outputs(flags, output);
   const OpenedInputs inputs = open_inputs(flags.files, input_options, flags.color);
   print_remarks(inputs.remarks, flags.quiet);
-  options.progress = make_progress(progress, inputs.n_samples);
+  options.progress = make_progress(progress, inputs.n_samples, stages_of(flags));
   if (flags.plan) return plan_run(flags, output, input_options, options);
   options.doubt = [&](const std::string& doubt) { print_remarks({doubt}, flags.quiet); };
   double seconds = 0;

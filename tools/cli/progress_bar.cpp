@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "base/machine_memory.hpp"
 #include "choose.hpp"
-#include "forecast.hpp"
 #include "interrupt.hpp"
 #include "report.hpp"
 #include "text.hpp"
@@ -55,7 +55,7 @@ std::string rate(double samples_per_second, bool is_short) {
 // One line for each stage, drawn over until the stage is done.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::uint64_t n_samples) : forecast_(n_samples) {}
+  explicit ProgressBar(Forecast forecast) : forecast_(std::move(forecast)) {}
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   ~ProgressBar() { end_line(); }
@@ -113,7 +113,7 @@ std::string json_line(const Moment& moment) {
 // JSON for schedulers. What came too soon after the last line is kept: the last word is always said.
 class ProgressLines {
  public:
-  explicit ProgressLines(std::uint64_t n_samples) : forecast_(n_samples) {}
+  explicit ProgressLines(Forecast forecast) : forecast_(std::move(forecast)) {}
   ProgressLines(const ProgressLines&) = delete;
   ProgressLines& operator=(const ProgressLines&) = delete;
   ~ProgressLines() { print(); }
@@ -139,8 +139,8 @@ class ProgressLines {
 };
 
 template <class Shown>
-Progress shown_by(std::uint64_t n_samples) {
-  auto shown = std::make_shared<Shown>(n_samples);
+Progress shown_by(const Forecast& forecast) {
+  auto shown = std::make_shared<Shown>(forecast);
   return [shown](double fraction, std::string_view stage) {
     shown->show(fraction, stage);
     return !is_interrupted();
@@ -156,9 +156,10 @@ ProgressForm choose_progress(const std::string& name, bool quiet) {
   return form == ProgressForm::kBar && (quiet || isatty(STDERR_FILENO) == 0) ? ProgressForm::kNone : form;
 }
 
-Progress make_progress(ProgressForm form, std::uint64_t n_samples) {
-  if (form == ProgressForm::kBar) return shown_by<ProgressBar>(n_samples);
-  if (form == ProgressForm::kJson) return shown_by<ProgressLines>(n_samples);
+Progress make_progress(ProgressForm form, std::uint64_t n_samples, const std::vector<StageShare>& stages) {
+  const Forecast forecast(n_samples, stages);
+  if (form == ProgressForm::kBar) return shown_by<ProgressBar>(forecast);
+  if (form == ProgressForm::kJson) return shown_by<ProgressLines>(forecast);
   return [](double, std::string_view) { return !is_interrupted(); };
 }
 
