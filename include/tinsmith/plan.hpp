@@ -43,9 +43,9 @@ struct CompressPlan {
   std::vector<std::string> doubts;  // where less is free than expected, a sentence each
 };
 
-/// Does none of the work but for up to nine windows, which lie apart from each other. Throws like compress(), and
-/// ResourceError for what can't fit: the memory, the output's format when not even half of the estimate fits, the
-/// disks when not even a quarter does.
+/// Does none of the work but for up to nine windows (25 where there are thousands), which lie apart from each
+/// other. Throws like compress(), and ResourceError for what can't fit: the memory, the output's format when not
+/// even half of the estimate fits, the disks when not even a quarter does.
 CompressPlan plan(const std::vector<std::string>& inputs, const std::string& output,
                   const InputOptions& input_options, const CompressOptions& options);
 

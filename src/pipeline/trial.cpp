@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "pipeline/workload.hpp"
@@ -11,7 +12,12 @@ namespace tinsmith {
 
 namespace {
 
-constexpr std::size_t kBands = 3;
+// Of rows, and columns in each: 9 windows; where that is little beside the whole, up to 25.
+std::size_t n_bands(std::size_t n_windows) {
+  constexpr double kShare = 8;  // a band for so many windows along a side
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(n_windows)) / kShare), 3,
+                                 5);
+}
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -79,19 +85,21 @@ std::vector<std::int64_t> windows_with_samples(const HeightField& field, const W
   return windows;
 }
 
-// Three bands of rows with a third of the windows each; of each band the windows at a sixth, a half and five sixths
-// of its columns.
+// Bands of rows with as many windows each; of each band the windows in the middle of as many parts of its columns.
 std::vector<std::int64_t> spread_out(std::vector<std::int64_t> windows, std::int64_t columns) {
-  if (windows.size() <= kBands * kBands) return windows;
+  const std::size_t bands = n_bands(windows.size());
+  if (windows.size() <= bands * bands) return windows;
   const auto is_left_of = [columns](std::int64_t a, std::int64_t b) {
     return std::pair(a % columns, a) < std::pair(b % columns, b);
   };
   std::vector<std::int64_t> chosen;
-  for (std::size_t band = 0; band < kBands; ++band) {
-    const auto first = windows.begin() + static_cast<std::ptrdiff_t>(band * windows.size() / kBands);
-    const auto last = windows.begin() + static_cast<std::ptrdiff_t>((band + 1) * windows.size() / kBands);
-    std::sort(first, last, is_left_of);
-    for (const std::ptrdiff_t sixths : {1, 3, 5}) chosen.push_back(*(first + sixths * (last - first) / 6));
+  for (std::size_t band = 0; band < bands; ++band) {
+    const std::size_t first = band * windows.size() / bands;
+    const std::size_t last = (band + 1) * windows.size() / bands;
+    const auto begin = windows.begin();
+    std::sort(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last), is_left_of);
+    for (std::size_t part = 0; part < bands; ++part)
+      chosen.push_back(windows[first + (2 * part + 1) * (last - first) / (2 * bands)]);
   }
   return chosen;
 }

@@ -14,7 +14,7 @@ namespace tinsmith {
 /// The windows of round 0 that may hold samples, ascending.
 std::vector<std::int64_t> windows_with_samples(const HeightField& field, const WindowGraph& graph);
 
-/// Up to nine of the windows, spread over the rows and columns that they are in.
+/// Up to nine of the windows, of more than a thousand up to 25, spread over the rows and columns that they are in.
 std::vector<std::int64_t> spread_out(std::vector<std::int64_t> windows, std::int64_t columns);
 
 /// Sums over the tried windows, but for one.

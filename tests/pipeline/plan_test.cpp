@@ -42,9 +42,13 @@ class SparseField : public HeightField {
 TEST(Plan, TriesWindowsFarFromEachOther) {
   std::vector<std::int64_t> windows(90 * 60);
   for (std::size_t i = 0; i < windows.size(); ++i) windows[i] = static_cast<std::int64_t>(i);
-  std::set<std::pair<std::int64_t, std::int64_t>> ninths;
-  for (const std::int64_t w : spread_out(windows, 90)) ninths.emplace(w % 90 / 30, w / 90 / 20);
-  EXPECT_EQ(ninths.size(), 9U);
+  std::set<std::pair<std::int64_t, std::int64_t>> parts;
+  for (const std::int64_t w : spread_out(windows, 90)) parts.emplace(w % 90 / 18, w / 90 / 12);
+  EXPECT_EQ(parts.size(), 25U);
+  windows.resize(90 * 6);
+  parts.clear();
+  for (const std::int64_t w : spread_out(windows, 90)) parts.emplace(w % 90 / 30, w / 90 / 2);
+  EXPECT_EQ(parts.size(), 9U) << "of fewer windows fewer";
   EXPECT_EQ(spread_out({5, 7}, 3), (std::vector<std::int64_t>{5, 7}));
   EXPECT_TRUE(spread_out({}, 3).empty());
 }

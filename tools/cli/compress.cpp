@@ -62,7 +62,7 @@ options:
   --tmp DIR            folder for unfinished work (default: a hidden folder beside OUTPUT, removed at the end)
   --fresh              throw away the unfinished work of an earlier run on the same OUTPUT with other options
   --plan               do none of it, but say what it will take: windows, memory, scratch space, triangles, bytes and
-                       time, estimated from up to nine windows that are compressed for that; fails with exit code 5
+                       time, estimated from 9 windows (25 of thousands) that are compressed for that; fails with code 5
                        when it can't fit
 )" TINSMITH_INPUT_MANUAL
                                 R"(  --no-verify          don't measure the written file
