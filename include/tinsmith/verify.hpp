@@ -23,8 +23,9 @@ struct VerifyOptions {
 /// Measures the mesh in the file `mesh_path` (.ply .obj .glb .2dm) against every sample of the rasters. What does
 /// not fit into the memory goes to scratch files; the most that is held at once are the triangles of a block of
 /// 512 x 512 samples for each thread, and of one block whatever the memory. An eighth of the memory is left to the
-/// raster cache of GDAL, which its caller limits (GDAL_CACHEMAX). Colours of the mesh are interpolated
-/// linearly, and compared at the samples with those of the raster `color`, warped as compress() does. Throws
+/// raster cache of GDAL, which its caller limits (GDAL_CACHEMAX). Levels of sRGB are
+/// interpolated linearly in the mesh, and compared at the samples with those of the raster `color`, warped as
+/// compress() does; viewers of .glb mix light instead, which between vertices is a little brighter. Throws
 /// InputError when one of the files can't be used or the mesh lacks colours, OutputError or ResourceError when
 /// scratch files can't, Interrupted.
 Certificate verify(const std::vector<std::string>& inputs, const std::string& mesh_path,
