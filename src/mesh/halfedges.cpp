@@ -54,15 +54,10 @@ void pair_twins(Halfedges& mesh, const Outgoing& outgoing) {
   }
 }
 
-// The number of halfedges in the fan from `start`.
-std::size_t fan_size(const Halfedges& mesh, std::int32_t start) {
-  std::size_t n = 0;
-  std::int32_t g = start;
-  do {
-    ++n;
-    g = mesh.turn(g);
-  } while (g != kNone && g != start);
-  return n;
+Fan open_fan_from(const Halfedges& mesh, std::int32_t start) {
+  Fan fan{start, 0};
+  for (std::int32_t g = start; g != kNone; g = mesh.turn(g)) ++fan.size;
+  return fan;
 }
 
 // Joins the outer neighbours of the triangle of h, which falls away; the vertex opposite to h keeps a halfedge.
@@ -80,15 +75,17 @@ void close_triangle(Halfedges& mesh, std::int32_t h) {
 
 }  // namespace
 
-std::int32_t fan_start(const Halfedges& mesh, std::int32_t h) {
-  std::int32_t smallest = h;
+Fan fan_of(const Halfedges& mesh, std::int32_t h) {
+  Fan fan{h, 0};
   std::int32_t g = h;
-  while (mesh.twin[at(g)] != kNone) {
-    g = Halfedges::next(mesh.twin[at(g)]);
-    if (g == h) return smallest;
-    smallest = std::min(smallest, g);
-  }
-  return g;
+  do {
+    ++fan.size;
+    fan.start = std::min(fan.start, g);
+    const std::int32_t t = mesh.twin[at(g)];
+    if (t == kNone) return open_fan_from(mesh, g);
+    g = Halfedges::next(t);
+  } while (g != h);
+  return fan;
 }
 
 std::vector<std::int32_t> connect(Halfedges& mesh, const std::vector<std::array<std::int32_t, 3>>& triangles,
@@ -103,8 +100,9 @@ std::vector<std::int32_t> connect(Halfedges& mesh, const std::vector<std::array<
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(n_vertices); ++v) {
     const std::span<const Leaving> leaving = outgoing.of(v);
     if (leaving.empty()) continue;
-    mesh.out[at(v)] = fan_start(mesh, leaving.front().halfedge);
-    if (fan_size(mesh, mesh.out[at(v)]) != leaving.size()) with_more_fans.push_back(v);
+    const Fan fan = fan_of(mesh, leaving.front().halfedge);
+    mesh.out[at(v)] = fan.start;
+    if (fan.size != leaving.size()) with_more_fans.push_back(v);
   }
   return with_more_fans;
 }
@@ -129,7 +127,7 @@ void collapse_edge(Halfedges& mesh, std::int32_t h, std::int32_t kept) {
   close_triangle(mesh, h);
   if (g != kNone) close_triangle(mesh, g);
   mesh.out[at(gone)] = kNone;
-  mesh.out[at(kept)] = fan_start(mesh, leaving);
+  mesh.out[at(kept)] = fan_of(mesh, leaving).start;
 }
 
 //        c                 c

@@ -6,6 +6,7 @@
 // that turning counter-clockwise from it meets the whole fan; every vertex has one fan.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -47,8 +48,13 @@ void for_each_out(const Halfedges& mesh, std::int32_t v, F&& f) {
 std::vector<std::int32_t> connect(Halfedges& mesh, const std::vector<std::array<std::int32_t, 3>>& triangles,
                                   std::size_t n_vertices);
 
-/// The first halfedge of the fan that h belongs to: clockwise as far as it goes; of a closed fan the smallest.
-std::int32_t fan_start(const Halfedges& mesh, std::int32_t h);
+struct Fan {
+  std::int32_t start;  // clockwise as far as it goes; of a closed fan the smallest halfedge
+  std::size_t size;    // in triangles
+};
+
+/// The fan that h belongs to.
+Fan fan_of(const Halfedges& mesh, std::int32_t h);
 
 /// Collapses the edge of h into its end `kept`; the other end goes. That it is legal was checked before.
 void collapse_edge(Halfedges& mesh, std::int32_t h, std::int32_t kept);

@@ -21,7 +21,7 @@ std::int32_t copy_vertex(WindowMesh& mesh, std::int32_t v) {
 // Gives the fan of h a vertex of its own, unless it is the first of its vertex or has one already.
 void separate_fan(WindowMesh& mesh, std::int32_t h) {
   const std::int32_t v = mesh.origin[at(h)];
-  const std::int32_t start = fan_start(mesh, h);
+  const std::int32_t start = fan_of(mesh, h).start;
   if (start == mesh.out[at(v)]) return;
   const std::int32_t copy = copy_vertex(mesh, v);
   mesh.out[at(copy)] = start;

@@ -1,6 +1,7 @@
 #include "triangulate/triangulate.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
@@ -27,67 +28,129 @@ constexpr double kSelectFactor = 4;
 constexpr double kSeamFactor = 0.4;
 
 struct FaceMark {
-  std::array<std::int32_t, 3> listed{kNone, kNone, kNone};  // the vertices that it had when it was listed
+  std::int32_t pass = 0;  // the one that listed it last
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceMark, Kernel,
-                                                           CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<LatticePoint, Kernel>;  // its sample
+template <class Base>
+using Structure =
+    CGAL::Triangulation_data_structure_2<VertexBase,
+                                         CGAL::Triangulation_face_base_with_info_2<FaceMark, Kernel, Base>>;
 
+// A full window's outline is its convex hull. Without constraints a run on the sample terrain is 3 % shorter.
+using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, Structure<CGAL::Triangulation_face_base_2<Kernel>>>;
+using ConstrainedDelaunay = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, Structure<CGAL::Constrained_triangulation_face_base_2<Kernel>>, CGAL::No_constraint_intersection_tag>;
+
+// Along a Z-shaped curve (Morton 1966): quarter by quarter of a square.
+template <class F>
+void for_each_along_curve(const GridRect& window, LatticePoint corner, std::int32_t side, F& f) {
+  if (corner.x >= window.x0 + window.width || corner.y >= window.y0 + window.height) return;
+  if (side == 1) {
+    f(corner);
+    return;
+  }
+  const std::int32_t half = side / 2;
+  for (const std::int32_t y : {corner.y, corner.y + half}) {
+    for (const std::int32_t x : {corner.x, corner.x + half}) for_each_along_curve(window, {x, y}, half, f);
+  }
+}
+
+template <class F>
+void for_each_along_curve(const GridRect& window, F&& f) {
+  std::int32_t side = 1;
+  while (side < std::max(window.width, window.height)) side *= 2;
+  for_each_along_curve(window, {window.x0, window.y0}, side, f);
+}
+
+std::vector<LatticePoint> selected_on(const OutlinePiece& piece, Selection& selection) {
+  std::vector<LatticePoint> line;
+  for (std::int32_t y = piece.a.y; y <= piece.b.y; ++y) {
+    for (std::int32_t x = piece.a.x; x <= piece.b.x; ++x) {
+      if (selection.at(x, y)) line.push_back({x, y});
+    }
+  }
+  return line;
+}
+
+template <class Triangulation>
 class WindowTriangulation {
+  static constexpr bool kIsFull = std::is_same_v<Triangulation, Delaunay>;
+  using Face = typename Triangulation::Face_handle;
+  using Vertex = typename Triangulation::Vertex_handle;
+
  public:
   WindowTriangulation(const HeightGrid& samples, const GridRect& window, const TriangulateOptions& options)
       : samples_(samples), window_(window), options_(options), aspect_(exact_aspect(options.aspect)) {}
 
   // Neighbours after each other: each is sought from the one before.
   void insert_all(const std::vector<LatticePoint>& selected) {
-    Cdt::Face_handle hint;
-    for (const LatticePoint p : selected) {
-      const Cdt::Vertex_handle v = cdt_.insert(plan(p), hint);
-      name(v, p);
-      hint = v->face();
-    }
+    Face hint;
+    for (const LatticePoint p : selected) hint = insert(p, hint)->face();
   }
 
-  void constrain(const std::vector<LatticePoint>& line) {
-    for (std::size_t i = 1; i < line.size(); ++i)
-      cdt_.insert_constraint(vertex_at(line[i - 1]), vertex_at(line[i]));
-  }
-
-  void prepare_lookup() {
-    handle_.assign(static_cast<std::size_t>(window_.area()), nullptr);
-    for (auto v = cdt_.finite_vertices_begin(); v != cdt_.finite_vertices_end(); ++v) {
-      handle_[index(position_[static_cast<std::size_t>(v->info())])] = v;
+  void constrain(const std::vector<OutlinePiece>& outline, Selection& selection) {
+    std::vector<Vertex> at_sample(static_cast<std::size_t>(window_.area()), nullptr);
+    for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v)
+      at_sample[index(v->info())] = v;
+    for (const OutlinePiece& piece : outline) {
+      const std::vector<LatticePoint> line = selected_on(piece, selection);
+      for (std::size_t i = 1; i < line.size(); ++i)
+        triangulation_.insert_constraint(at_sample[index(line[i - 1])], at_sample[index(line[i])]);
     }
   }
 
   // Inserts the worst sample of triangles that are outside the tolerance, until none is.
   void insert_violations() {
-    std::vector<Cdt::Face_handle> faces;
-    for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) faces.push_back(f);
+    std::vector<Face> faces;
+    for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f)
+      faces.push_back(f);
+    std::vector<Violation> found;
     while (!faces.empty()) {
-      std::vector<Violation> found;
-      for (const Cdt::Face_handle f : faces) find_violation(f, found);
-      faces = insert_worst(found);
+      found.clear();
+      for (const Face f : faces) find_violation(f, found);
+      insert_worst(found, faces);
     }
   }
 
-  WindowMesh mesh() {
+  // Vertices come along a space-filling curve, and triangles by them: what lies together in plan lies together in
+  // memory, which makes simplification a third faster.
+  WindowMesh mesh() const {
     std::vector<std::array<std::int32_t, 3>> triangles;
-    for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) {
-      if (is_inside(f)) triangles.push_back(names(f));
+    triangles.reserve(triangulation_.number_of_faces());
+    constexpr std::int32_t kUsed = 0;
+    std::vector<std::int32_t> name(static_cast<std::size_t>(window_.area()), kNone);
+    for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
+      if (!is_inside(f)) continue;
+      std::array<std::int32_t, 3>& triangle = triangles.emplace_back();
+      for (int i = 0; i < 3; ++i) {
+        const std::size_t at = index(f->vertex(i)->info());
+        triangle[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(at);
+        name[at] = kUsed;
+      }
     }
-    return with_used_vertices(triangles);
+    WindowMesh mesh;
+    for_each_along_curve(window_, [&](LatticePoint p) {
+      std::int32_t& there = name[index(p)];
+      if (there == kNone) return;
+      there = mesh.n_vertices();
+      mesh.position.push_back({p.x * kLatticePerCell, p.y * kLatticePerCell});
+      mesh.height.push_back(samples_.at(p.x, p.y));
+    });
+    mesh.is_settled.assign(mesh.position.size(), 0);
+    for (auto& t : triangles) {
+      for (std::int32_t& v : t) v = name[static_cast<std::size_t>(v)];
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    }
+    connect(mesh, sorted_by_first_vertex(triangles, mesh.position.size()));
+    return mesh;
   }
 
  private:
   struct Violation {
-    using Corners = std::array<Cdt::Vertex_handle, 3>;
     LatticePoint sample;
-    Corners corners;
+    std::array<Vertex, 3> corners;
   };
 
   // Few bits, so that row * aspect is exact: points in line on the grid are in line for CGAL too, else it would
@@ -104,95 +167,60 @@ class WindowTriangulation {
     return static_cast<std::size_t>(static_cast<std::int64_t>(p.y - window_.y0) * window_.width +
                                     (p.x - window_.x0));
   }
-  Cdt::Vertex_handle vertex_at(LatticePoint p) const { return handle_[index(p)]; }
 
-  void name(Cdt::Vertex_handle v, LatticePoint sample) {
-    v->info() = static_cast<std::int32_t>(position_.size());
-    position_.push_back(sample);
+  Vertex insert(LatticePoint sample, Face hint) {
+    const Vertex v = triangulation_.insert(plan(sample), hint);
+    v->info() = sample;
+    return v;
   }
-
-  static std::array<std::int32_t, 3> names(Cdt::Face_handle f) {
-    return {f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
-  }
-  LatticePoint sample(std::int32_t i) const { return position_[static_cast<std::size_t>(i)]; }
 
   // The outline is constrained, so a triangle lies in valid cells wholly or not at all, and the cell of its
   // centroid tells.
-  bool is_inside(Cdt::Face_handle f) const {
-    const auto [i, j, k] = names(f);
+  bool is_inside(Face f) const {
+    if constexpr (kIsFull) return true;
+    const LatticePoint a = f->vertex(0)->info();
+    const LatticePoint b = f->vertex(1)->info();
+    const LatticePoint c = f->vertex(2)->info();
     const auto third = [](std::int32_t sum) { return static_cast<std::int32_t>(std::floor(sum / 3.0)); };
-    const std::int32_t x = third(sample(i).x + sample(j).x + sample(k).x);
-    const std::int32_t y = third(sample(i).y + sample(j).y + sample(k).y);
-    return samples_.is_valid_cell(x, y);
+    return samples_.is_valid_cell(third(a.x + b.x + c.x), third(a.y + b.y + c.y));
   }
 
   // What lies in a triangle that has changed meanwhile waits until that has been measured.
   // Inserting all of them made a fifth more triangles.
-  std::vector<Cdt::Face_handle> insert_worst(const std::vector<Violation>& violations) {
-    std::vector<Cdt::Vertex_handle> inserted;
+  void insert_worst(const std::vector<Violation>& violations, std::vector<Face>& changed) {
+    ++pass_;
+    inserted_.clear();
     for (const auto& [sample, corners] : violations) {
-      Cdt::Face_handle f;
-      if (!cdt_.is_face(corners[0], corners[1], corners[2], f)) continue;
-      inserted.push_back(cdt_.insert(plan(sample), f));
-      name(inserted.back(), sample);
+      Face f;
+      if (triangulation_.is_face(corners[0], corners[1], corners[2], f)) inserted_.push_back(insert(sample, f));
     }
-    std::vector<Cdt::Face_handle> changed;
-    for (const Cdt::Vertex_handle v : inserted) {
-      auto f = cdt_.incident_faces(v);
+    changed.clear();
+    for (const Vertex v : inserted_) {
+      auto f = triangulation_.incident_faces(v);
       const auto first = f;
       do {
-        if (cdt_.is_infinite(f)) continue;
-        const std::array<std::int32_t, 3> now = names(f);
-        if (f->info().listed == now) continue;
-        f->info().listed = now;
+        if (triangulation_.is_infinite(f) || f->info().pass == pass_) continue;
+        f->info().pass = pass_;
         changed.push_back(f);
       } while (++f != first);
     }
-    return changed;
   }
 
-  void find_violation(Cdt::Face_handle f, std::vector<Violation>& found) const {
-    if (!is_inside(f)) return;
-    const auto corner = [&](Cdt::Vertex_handle v) {
-      const LatticePoint p = sample(v->info());
+  void find_violation(Face f, std::vector<Violation>& found) const {
+    const std::array<Vertex, 3> corners{f->vertex(0), f->vertex(1), f->vertex(2)};
+    // Half a cell holds no sample but its corners.
+    if (orient(corners[0]->info(), corners[1]->info(), corners[2]->info()) == 1 || !is_inside(f)) return;
+    const auto corner = [&](Vertex v) {
+      const LatticePoint p = v->info();
       return Corner{{p.x * kLatticePerCell, p.y * kLatticePerCell}, samples_.at(p.x, p.y)};
     };
-    const Violation::Corners corners{f->vertex(0), f->vertex(1), f->vertex(2)};
     const TriangleError error =
         triangle_error(samples_, corner(corners[0]), corner(corners[1]), corner(corners[2]));
     if (!(error.largest > options_.tolerance)) return;
     // The plane meets its own corners but for the rounding, which inserting them again would not mend.
-    const bool is_corner = std::any_of(corners.begin(), corners.end(),
-                                       [&](Cdt::Vertex_handle v) { return sample(v->info()) == error.worst; });
+    const bool is_corner =
+        std::any_of(corners.begin(), corners.end(), [&](Vertex v) { return v->info() == error.worst; });
     if (!is_corner) found.push_back({error.worst, corners});
-  }
-
-  // Names the vertices anew along a space-filling curve, and orders the triangles by them: what lies together in
-  // plan lies together in memory, which makes simplification a third faster.
-  WindowMesh with_used_vertices(std::vector<std::array<std::int32_t, 3>>& triangles) const {
-    std::vector<std::int32_t> new_name(position_.size(), kNone);
-    for (const auto& t : triangles) {
-      for (const std::int32_t v : t) new_name[static_cast<std::size_t>(v)] = 0;
-    }
-    std::vector<std::pair<std::uint64_t, std::int32_t>> order;
-    for (std::size_t v = 0; v < position_.size(); ++v) {
-      if (new_name[v] != kNone) order.emplace_back(z_order(position_[v]), static_cast<std::int32_t>(v));
-    }
-    std::sort(order.begin(), order.end());
-    WindowMesh mesh;
-    for (const auto& [code, v] : order) {
-      new_name[static_cast<std::size_t>(v)] = mesh.n_vertices();
-      const LatticePoint p = sample(v);
-      mesh.position.push_back({p.x * kLatticePerCell, p.y * kLatticePerCell});
-      mesh.height.push_back(samples_.at(p.x, p.y));
-    }
-    mesh.is_settled.assign(mesh.position.size(), 0);
-    for (auto& t : triangles) {
-      for (std::int32_t& v : t) v = new_name[static_cast<std::size_t>(v)];
-      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    }
-    connect(mesh, sorted_by_first_vertex(triangles, mesh.position.size()));
-    return mesh;
   }
 
   static std::vector<std::array<std::int32_t, 3>> sorted_by_first_vertex(
@@ -205,27 +233,13 @@ class WindowTriangulation {
     return sorted;
   }
 
-  // The bits of the window's column and row in turn (Morton 1966).
-  std::uint64_t z_order(LatticePoint p) const {
-    const auto spread = [](std::int32_t i) {
-      auto bits = static_cast<std::uint64_t>(i);
-      for (const auto& [shift, mask] : {std::pair{16, 0x0000FFFF0000FFFFULL}, std::pair{8, 0x00FF00FF00FF00FFULL},
-                                        std::pair{4, 0x0F0F0F0F0F0F0F0FULL}, std::pair{2, 0x3333333333333333ULL},
-                                        std::pair{1, 0x5555555555555555ULL}}) {
-        bits = (bits | (bits << shift)) & mask;
-      }
-      return bits;
-    };
-    return spread(p.x - window_.x0) | (spread(p.y - window_.y0) << 1);
-  }
-
   const HeightGrid& samples_;
   GridRect window_;
   TriangulateOptions options_;
   double aspect_;
-  Cdt cdt_;
-  std::vector<LatticePoint> position_;      // by name: sample position
-  std::vector<Cdt::Vertex_handle> handle_;  // by sample of the window, for the constraints
+  Triangulation triangulation_;
+  std::int32_t pass_ = 0;
+  std::vector<Vertex> inserted_;  // in this pass
 };
 
 // The line's inside is decided by its own samples alone, whatever the hierarchy wanted there.
@@ -239,37 +253,22 @@ void select_outline(const HeightGrid& samples, double tolerance, const std::vect
   for (const auto& [a, b] : outline) select_on_line(samples, tolerance, a, b, selection);
 }
 
-// Along a Z-shaped curve (Morton 1966): quarter by quarter of a square.
-void add_selected(Selection& selection, LatticePoint corner, std::int32_t side, std::vector<LatticePoint>& points) {
-  const GridRect& w = selection.window;
-  if (corner.x >= w.x0 + w.width || corner.y >= w.y0 + w.height) return;
-  if (side == 1) {
-    if (selection.at(corner.x, corner.y)) points.push_back(corner);
-    return;
-  }
-  const std::int32_t half = side / 2;
-  for (const std::int32_t y : {corner.y, corner.y + half}) {
-    for (const std::int32_t x : {corner.x, corner.x + half}) add_selected(selection, {x, y}, half, points);
-  }
-}
-
 std::vector<LatticePoint> selected_points(Selection& selection) {
-  const GridRect& w = selection.window;
-  std::int32_t side = 1;
-  while (side < std::max(w.width, w.height)) side *= 2;
   std::vector<LatticePoint> points;
-  add_selected(selection, {w.x0, w.y0}, side, points);
+  for_each_along_curve(selection.window, [&](LatticePoint p) {
+    if (selection.at(p.x, p.y)) points.push_back(p);
+  });
   return points;
 }
 
-std::vector<LatticePoint> selected_on(const OutlinePiece& piece, Selection& selection) {
-  std::vector<LatticePoint> line;
-  for (std::int32_t y = piece.a.y; y <= piece.b.y; ++y) {
-    for (std::int32_t x = piece.a.x; x <= piece.b.x; ++x) {
-      if (selection.at(x, y)) line.push_back({x, y});
-    }
-  }
-  return line;
+template <class Triangulation>
+WindowMesh triangulate(const HeightGrid& samples, const TriangulateOptions& options,
+                       const std::vector<OutlinePiece>& outline, Selection& selection) {
+  WindowTriangulation<Triangulation> triangulation(samples, selection.window, options);
+  triangulation.insert_all(selected_points(selection));
+  if constexpr (std::is_same_v<Triangulation, ConstrainedDelaunay>) triangulation.constrain(outline, selection);
+  triangulation.insert_violations();
+  return triangulation.mesh();
 }
 
 }  // namespace
@@ -280,14 +279,8 @@ WindowMesh triangulate(const HeightGrid& samples, const GridRect& window, const 
   Selection selection{window, std::vector<std::uint8_t>(static_cast<std::size_t>(window.area()), 0)};
   select_samples(samples, kSelectFactor * options.tolerance, selection);
   select_outline(samples, kSeamFactor * options.tolerance, outline, selection);
-  WindowTriangulation triangulation(samples, window, options);
-  triangulation.insert_all(selected_points(selection));
-  if (!is_full(samples, window)) {
-    triangulation.prepare_lookup();
-    for (const OutlinePiece& piece : outline) triangulation.constrain(selected_on(piece, selection));
-  }
-  triangulation.insert_violations();
-  return triangulation.mesh();
+  return is_full(samples, window) ? triangulate<Delaunay>(samples, options, outline, selection)
+                                  : triangulate<ConstrainedDelaunay>(samples, options, outline, selection);
 }
 
 }  // namespace tinsmith
