@@ -27,18 +27,21 @@ struct Directions {
   std::size_t n = 0;
 };
 
-Directions directions(const WindowMesh& mesh, std::int32_t v, std::int32_t step, std::size_t all) {
+Directions directions(const WindowMesh& mesh, std::int32_t v, std::int32_t step, std::size_t n) {
   const auto diagonal = static_cast<std::int32_t>(std::lround(step * 0.7071));
-  if (mesh.kind[at(v)] == VertexKind::kInterior)
+  if (mesh.kind[at(v)] == VertexKind::kInterior) {
+    // Two: neighbours, whose numbers are near, look along different diagonals.
+    if (n == 2 && v % 2 == 1) return {{{{-diagonal, diagonal}, {diagonal, -diagonal}}}, n};
     return {{{{diagonal, diagonal},
-              {-diagonal, diagonal},
               {-diagonal, -diagonal},
+              {-diagonal, diagonal},
               {diagonal, -diagonal},
               {step, 0},
               {0, step},
               {-step, 0},
               {0, -step}}},
-            all};
+            n};
+  }
   if (mesh.kind[at(v)] != VertexKind::kBorder) return {};
   const LatticePoint p = mesh.position[at(v)];
   const LatticePoint q = mesh.position[at(mesh.destination(mesh.out[at(v)]))];

@@ -17,7 +17,7 @@ struct RefineBound {
   const HeightGrid& samples;
   double tolerance = 0;
   bool may_move = true;                 // false: vertices stay as they were placed, and only edges may change
-  std::size_t directions = 8;           // in which a move is tried: 4 or 8
+  std::size_t directions = 8;           // in which a move is tried: 2, 4 or 8
   const ColourGrid* colours = nullptr;  // none: height alone counts
   double squared_height_per_level = 0;  // what a squared colour error weighs beside a squared vertical one
 };

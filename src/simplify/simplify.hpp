@@ -21,7 +21,7 @@ struct Labour {
   int refinements = 0;  // rounds of vertex moves, flips and further collapses after the first pass
   // Edges whose mean squared quadric error is more than this times the squared tolerance are not tried.
   double patience = std::numeric_limits<double>::infinity();
-  std::size_t directions = 8;  // in which vertices are moved: 4 or 8
+  std::size_t directions = 8;  // in which vertices are moved: 2, 4 or 8
 };
 
 Labour labour_of(Effort effort);
