@@ -31,8 +31,8 @@ class OutputFile {
   /// finish() all of them before the first commit().
   void finish();
 
-  /// finish(), then renames and brings the name to the disk: after a power cut the old or the new file is there,
-  /// whole.
+  /// finish(), then renames: after a power cut the old or the new file is there, whole. The name of a large file is
+  /// brought to the disk, too.
   void commit();
 
  private:
