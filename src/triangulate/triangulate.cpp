@@ -116,7 +116,7 @@ class WindowTriangulation {
 
   // Vertices come along a space-filling curve, and triangles by them: what lies together in plan lies together in
   // memory, which makes simplification a third faster.
-  WindowMesh mesh() const {
+  WindowMesh mesh() && {
     std::vector<std::array<std::int32_t, 3>> triangles;
     triangles.reserve(triangulation_.number_of_faces());
     constexpr std::int32_t kUsed = 0;
@@ -130,6 +130,7 @@ class WindowTriangulation {
         name[at] = kUsed;
       }
     }
+    triangulation_.clear();  // as large as all that follows
     WindowMesh mesh;
     for_each_along_curve(window_, [&](LatticePoint p) {
       std::int32_t& there = name[index(p)];
@@ -268,7 +269,7 @@ WindowMesh triangulate(const HeightGrid& samples, const TriangulateOptions& opti
   triangulation.insert_all(selected_points(selection));
   if constexpr (std::is_same_v<Triangulation, ConstrainedDelaunay>) triangulation.constrain(outline, selection);
   triangulation.insert_violations();
-  return triangulation.mesh();
+  return std::move(triangulation).mesh();
 }
 
 }  // namespace
