@@ -32,11 +32,11 @@ struct SimplifySurfaceOptions {
   Placement placement = Placement::kOptimal;
   // Planes count by the area of their triangles and twice the mean area; false: all the same (eq. 3 as printed).
   bool area_weights = true;
-  bool half_space = true;  // eq. 12-24: no triangle may turn over
+  // Eq. 12-24: no triangle may turn over, nor an edge get normals more than 90 degrees apart where there was none.
+  bool half_space = true;
   // With optimal placement, at the end: vertices and values move to the best fit of the input's vertices, which
   // takes a tenth to a fifth off the RMS distance and as long as the collapses at most. Places that get farther off
-  // than the farthest was are drawn back; the largest distance was at most a seventh above that without the fit in
-  // the benchmark, and mostly below. Nothing turns over; features stay.
+  // than the farthest was, one way or the other, are drawn back. Nothing turns over; features stay.
   bool fit = true;
   QuadricForm quadric = QuadricForm::kGradient;
   // alpha of Cost = E_g + alpha E_c, the geometry in units of its largest extent; 0: attributes follow and cost

@@ -47,6 +47,13 @@ struct Quadric {
     return *this;
   }
 
+  /// Of A: the sum of the weights of all planes.
+  double trace() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < N; ++i) sum += q[a(i, i)];
+    return sum;
+  }
+
   double at(const Vec<N>& v) const {
     double value = q[c()];
     for (std::size_t i = 0; i < N; ++i) {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/half_space_test.hpp"
+#include "simplify/surface_star.hpp"
+#include "simplify/surface_walk.hpp"
 
 namespace tinsmith {
 
@@ -23,110 +24,7 @@ std::array<Vec<3>, 3> corners_of(const SurfaceMesh& mesh, std::int32_t h) {
           mesh.position[at(mesh.origin[at(Halfedges::previous(h))])]};
 }
 
-Vec<3> normal_of(const SurfaceMesh& mesh, std::int32_t h) {
-  const auto [a, b, c] = corners_of(mesh, h);
-  return cross(b - a, c - a);
-}
-
 Vec<3> times(const Vec<3>& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
-
-// ---- the point of the surface that is nearest to a sample
-
-// A triangle as the search wants it, by number. One without area has normal and duals that are no numbers, so that
-// nothing lies over it.
-struct Facet {
-  Vec<3> corner;
-  Vec<3> dual1;  // the share of corner 1 is dual1 . (p - corner), as dual2 for corner 2
-  Vec<3> dual2;
-  Vec<3> normal;  // of length 1
-};
-
-Facet facet_of(const SurfaceMesh& mesh, std::int32_t h) {
-  const auto [a, b, c] = corners_of(mesh, h);
-  const Vec<3> n = cross(b - a, c - a);
-  const double squared = dot(n, n);
-  return {a, times(cross(c - a, n), 1 / squared), times(cross(n, b - a), 1 / squared),
-          times(n, 1 / std::sqrt(squared))};
-}
-
-std::vector<Facet> facets_of(const SurfaceMesh& mesh) {
-  std::vector<Facet> facets(mesh.origin.size() / 3);
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
-    if (mesh.origin[at(h)] != kNone) facets[at(h / 3)] = facet_of(mesh, h);
-  }
-  return facets;
-}
-
-struct Nearest {
-  double squared = std::numeric_limits<double>::infinity();
-  std::int32_t halfedge = kNone;  // the first of its triangle
-  Vec<3> share{};                 // of the triangle's corners
-  Vec<3> off{};                   // from there to the sample
-};
-
-// On the side from corner k of the triangle of h, the first of its halfedges.
-void improve_on_side(const SurfaceMesh& mesh, std::int32_t h, std::int32_t k, const Vec<3>& p, Nearest& best) {
-  const std::int32_t other = (k + 1) % 3;
-  const Vec<3>& a = mesh.position[at(mesh.origin[at(h + k)])];
-  const Vec<3> side = mesh.position[at(mesh.origin[at(h + other)])] - a;
-  const double along = dot(p - a, side);
-  const double length = dot(side, side);
-  const double t = along > 0 ? (along < length ? along / length : 1) : 0;
-  const Vec<3> off = p - a - times(side, t);
-  const double squared = dot(off, off);
-  if (!(squared < best.squared)) return;
-  best = {squared, h, {}, off};
-  best.share[at(k)] = 1 - t;
-  best.share[at(other)] = t;
-}
-
-// Whether the triangle of h, the first of its halfedges, is nearer to p than the best so far.
-bool improve(const SurfaceMesh& mesh, const std::vector<Facet>& facets, std::int32_t h, const Vec<3>& p,
-             Nearest& best) {
-  const Facet& facet = facets[at(h / 3)];
-  const Vec<3> d = p - facet.corner;
-  const double height = dot(d, facet.normal);
-  if (height * height >= best.squared) return false;
-  const double share1 = dot(d, facet.dual1);
-  const double share2 = dot(d, facet.dual2);
-  const double share0 = 1 - share1 - share2;
-  if (share0 >= 0 && share1 >= 0 && share2 >= 0) {
-    best = {height * height, h, {share0, share1, share2}, times(facet.normal, height)};
-    return true;
-  }
-  // The nearest point lies on a side that p is beyond.
-  const double before = best.squared;
-  if (!(share2 >= 0)) improve_on_side(mesh, h, 0, p, best);
-  if (!(share0 >= 0)) improve_on_side(mesh, h, 1, p, best);
-  if (!(share1 >= 0)) improve_on_side(mesh, h, 2, p, best);
-  return best.squared < before;
-}
-
-bool improve_around(const SurfaceMesh& mesh, const std::vector<Facet>& facets, std::int32_t v, const Vec<3>& p,
-                    Nearest& best) {
-  const double before = best.squared;
-  for_each_out(mesh, v, [&](std::int32_t h) { improve(mesh, facets, h - h % 3, p, best); });
-  return best.squared < before;
-}
-
-// Across the side, or around the corner, on which the nearest point lies, as long as that comes nearer.
-void descend(const SurfaceMesh& mesh, const std::vector<Facet>& facets, const Vec<3>& p, Nearest& best) {
-  constexpr int kMaxSteps = 32;
-  for (int n_steps = 0; n_steps < kMaxSteps; ++n_steps) {
-    std::int32_t k = 0;  // the corner after the side without a share of the opposite one, or the only one
-    while (k < 3 && best.share[at(k)] > 0) ++k;
-    if (k == 3) return;
-    const bool has_next = best.share[at((k + 1) % 3)] > 0;
-    const bool has_previous = best.share[at((k + 2) % 3)] > 0;
-    if (has_next && has_previous) {
-      const std::int32_t g = mesh.twin[at(best.halfedge + (k + 1) % 3)];
-      if (g == kNone || !improve(mesh, facets, g - g % 3, p, best)) return;
-    } else {
-      const std::int32_t corner = best.halfedge + (has_next ? (k + 1) % 3 : (k + 2) % 3);
-      if (!improve_around(mesh, facets, mesh.origin[at(corner)], p, best)) return;
-    }
-  }
-}
 
 // ---- steps of the vertices
 
@@ -154,44 +52,33 @@ struct Fit {
   std::vector<Quadric<3>> pulls;        // by vertex
   std::vector<std::uint8_t> is_astray;  // by vertex: a triangle of it has a sample that is too far
   std::vector<Vec<3>> home;             // by vertex: where it was at the start
+  std::vector<std::int32_t> below;      // by vertex: as triangle, of the input; kNone: not sought yet
   float largest = 0;                    // squared distance at the start
 };
 
-Nearest nearest(const SurfaceMesh& mesh, const std::vector<Facet>& facets, const Vec<3>& p, std::int32_t v,
-                std::int32_t triangle) {
-  Nearest best;
-  if (triangle != kNone)
-    improve(mesh, facets, triangle, p, best);
-  else
-    improve_around(mesh, facets, v, p, best);
-  if (best.halfedge != kNone) descend(mesh, facets, p, best);
-  return best;
-}
-
-void pull(const SurfaceMesh& mesh, const std::vector<Facet>& facets, const Nearest& there, double weight,
-          Fit& fit) {
-  const Vec<3>& across = there.squared > kTiny * kTiny ? there.off : facets[at(there.halfedge / 3)].normal;
+void pull(const WalkedSurface& surface, const Nearest& there, double weight, Fit& fit) {
+  const Vec<3>& across = there.squared > kTiny * kTiny ? there.off : surface.facets[at(there.halfedge / 3)].normal;
   const double length = std::sqrt(dot(across, across));
   if (!(length > 0)) return;
   const Vec<3> direction = times(across, 1 / length);
   weight *= std::sqrt(std::sqrt(there.squared) + kTiny);
   for (std::int32_t k = 0; k < 3; ++k) {
     if (there.share[at(k)] > 0)
-      pull_at(fit.pulls[at(mesh.origin[at(there.halfedge + k)])], weight * there.share[at(k)], direction,
+      pull_at(fit.pulls[at(surface.mesh.origin[at(there.halfedge + k)])], weight * there.share[at(k)], direction,
               there.off);
   }
 }
 
 void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
-  const std::vector<Facet> facets = facets_of(mesh);
+  const WalkedSurface surface(mesh, mesh.position);
   fit.pulls.assign(mesh.position.size(), {});
   for (std::size_t i = 0; i < samples.place.size(); ++i) {
     if (!mesh.is_alive(samples.vertex[i])) continue;
-    const Nearest there = nearest(mesh, facets, samples.place[i], samples.vertex[i], fit.triangle[i]);
+    const Nearest there = nearest(surface, samples.place[i], fit.triangle[i], samples.vertex[i]);
     fit.triangle[i] = there.halfedge;
     if (there.halfedge == kNone) continue;
     fit.squared[i] = static_cast<float>(there.squared);
-    pull(mesh, facets, there, samples.weight[i], fit);
+    pull(surface, there, samples.weight[i], fit);
   }
 }
 
@@ -201,6 +88,26 @@ void find_astray(const SurfaceMesh& mesh, Fit& fit) {
   for (std::size_t i = 0; i < fit.squared.size(); ++i) {
     if (fit.triangle[i] == kNone || !(fit.squared[i] > fit.largest)) continue;
     for (std::int32_t k = 0; k < 3; ++k) fit.is_astray[at(mesh.origin[at(fit.triangle[i] + k)])] = 1;
+  }
+}
+
+// The corners of triangles whose middle, or that of a side, is farther from the input than any sample was at the
+// start.
+void find_astray_back(const WalkedSurface& input, const SurfaceMesh& mesh, Fit& fit) {
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    if (mesh.origin[at(h)] == kNone) continue;
+    const auto [a, b, c] = corners_of(mesh, h);
+    const Vec<3> side = times(a - times(b, -1), 0.5);
+    const Vec<3> middle = times(a - times(b, -1) - times(c, -1), 1.0 / 3);
+    const std::int32_t v = mesh.origin[at(h)];
+    const auto is_far = [&](const Vec<3>& p) {
+      return nearest(input, p, fit.below[at(v)], v).squared > fit.largest;
+    };
+    const bool is_first = h % 3 == 0;
+    const bool is_once = h > mesh.twin[at(h)];
+    if (!(is_first && is_far(middle)) && !(is_once && is_far(side))) continue;
+    for (const std::int32_t corner : {h, Halfedges::next(h), Halfedges::previous(h)})
+      fit.is_astray[at(mesh.origin[at(corner)])] = 1;
   }
 }
 
@@ -219,42 +126,11 @@ bool find_step(Quadric<3> pull, Vec<3>& step) {
   return true;
 }
 
-// The triangles around an interior vertex, and beyond.
-struct FittedStar {
-  std::vector<LinkSide> sides;
-  std::vector<Vec<3>> beyond;  // by side: normal of the triangle there; zero: none
-};
-
-void gather(const SurfaceMesh& mesh, std::int32_t v, FittedStar& star) {
-  star.sides.clear();
-  star.beyond.clear();
-  for_each_out(mesh, v, [&](std::int32_t h) {
-    const auto [own, a, b] = corners_of(mesh, h);
-    star.sides.push_back({a, b, own});
-    const std::int32_t g = mesh.twin[at(Halfedges::next(h))];
-    star.beyond.push_back(g == kNone ? Vec<3>{} : normal_of(mesh, g));
-  });
-}
-
-// Edges of the star with v at p whose triangles have normals more than 90 degrees apart.
-int count_turned(const FittedStar& star, const Vec<3>& p) {
-  const auto normal = [&](const LinkSide& side) { return cross(side.a - p, side.b - p); };
-  int n_turned = 0;
-  Vec<3> last = normal(star.sides.back());
-  for (std::size_t i = 0; i < star.sides.size(); ++i) {
-    const Vec<3> n = normal(star.sides[i]);
-    if (!(dot(n, last) > 0)) ++n_turned;
-    if (!(dot(n, star.beyond[i]) > 0)) ++n_turned;
-    last = n;
-  }
-  return n_turned;
-}
-
-void move_by(SurfaceMesh& mesh, std::int32_t v, const Vec<3>& step, FittedStar& star) {
-  const Vec<3> before = mesh.position[at(v)];
-  const Vec<3> now = before - times(step, -1);
-  gather(mesh, v, star);
-  if (!is_inside_half_spaces(star.sides, now) || count_turned(star, now) > count_turned(star, before)) return;
+void move_by(SurfaceMesh& mesh, std::int32_t v, const Vec<3>& step, SurfaceStar& star) {
+  const Vec<3> now = mesh.position[at(v)] - times(step, -1);
+  clear(star);
+  for_each_out(mesh, v, [&](std::int32_t h) { add_side(mesh, h, star); });
+  if (!is_inside_half_spaces(star.sides, now) || count_turned(star, now) > count_turned(star)) return;
   mesh.position[at(v)] = now;
 }
 
@@ -267,21 +143,40 @@ void hold_near_home(const Vec<3>& off_home, double roam, Vec<3>& step) {
   if (length > roam) step = times(goal, roam / length) - off_home;
 }
 
-void step_all(SurfaceMesh& mesh, const Fit& fit) {
+// The largest part of the step that leaves the vertex no farther from the input than the farthest sample was from
+// the surface at the start, or no farther than it is: samples know where the input is, not where the surface goes.
+void hold_near_input(const WalkedSurface& input, const Vec<3>& p, std::int32_t v, Fit& fit, Vec<3>& step) {
+  std::int32_t& triangle = fit.below[at(v)];
+  Nearest there = nearest(input, p, triangle, v);
+  const double squared = std::max(static_cast<double>(fit.largest), there.squared);
+  constexpr int kHalves = 3;
+  for (int i = 0; i < kHalves; ++i) {
+    there = nearest(input, p - times(step, -1), there.halfedge, v);
+    if (there.squared <= squared) {
+      triangle = there.halfedge;
+      return;
+    }
+    step = times(step, 0.5);
+  }
+  step = {};
+}
+
+void step_all(const WalkedSurface& input, SurfaceMesh& mesh, Fit& fit) {
   constexpr double kRoam = 0.5;
   const double roam = kRoam * std::sqrt(static_cast<double>(fit.largest));
-  FittedStar star;
+  SurfaceStar star;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(fit.pulls.size()); ++v) {
     Vec<3> step{};
     if (!may_move(mesh, v) || fit.is_astray[at(v)] || !find_step(fit.pulls[at(v)], step)) continue;
     hold_near_home(mesh.position[at(v)] - fit.home[at(v)], roam, step);
+    hold_near_input(input, mesh.position[at(v)], v, fit, step);
     move_by(mesh, v, step, star);
   }
 }
 
 // Half of the way home, where a sample is too far.
 void draw_back(SurfaceMesh& mesh, const Fit& fit) {
-  FittedStar star;
+  SurfaceStar star;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(fit.home.size()); ++v) {
     if (!may_move(mesh, v) || !fit.is_astray[at(v)]) continue;
     move_by(mesh, v, times(fit.home[at(v)] - mesh.position[at(v)], 0.5), star);
@@ -293,12 +188,15 @@ Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples) {
   fit.triangle.assign(samples.place.size(), kNone);
   fit.squared.assign(samples.place.size(), 0);
   fit.home = mesh.position;
+  fit.below.assign(mesh.position.size(), kNone);
+  const WalkedSurface input(samples.triangles, samples.place);
   for (int round = 0; round <= kRounds; ++round) {
     find_nearest(mesh, samples, fit);
     if (round == 0) fit.largest = *std::max_element(fit.squared.begin(), fit.squared.end());
     find_astray(mesh, fit);
+    if (round == kRounds) find_astray_back(input, mesh, fit);
     draw_back(mesh, fit);
-    if (round < kRounds) step_all(mesh, fit);
+    if (round < kRounds) step_all(input, mesh, fit);
   }
   return fit;
 }
@@ -306,14 +204,14 @@ Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples) {
 // ---- steps of the values, in the same way; seams, where a sample has several, stay
 
 // One round: the places stay, so where the samples lie stays too.
-void step_values(const SurfaceMesh& mesh, const std::vector<Facet>& facets, WedgeValues& values,
+void step_values(const SurfaceMesh& mesh, const WalkedSurface& surface, WedgeValues& values,
                  const FitSamples& samples, Fit& fit) {
   const std::size_t n = values.n_components;
   std::vector<double> pulls(values.values.size(), 0);
   std::vector<double> weights(mesh.original_vertex.size(), 0);
   for (std::size_t i = 0; i < mesh.kind.size(); ++i) {
     if (!mesh.is_alive(samples.vertex[i]) || mesh.kind[i] != SurfaceVertexKind::kInterior) continue;
-    const Nearest there = nearest(mesh, facets, samples.place[i], samples.vertex[i], fit.triangle[i]);
+    const Nearest there = nearest(surface, samples.place[i], fit.triangle[i], samples.vertex[i]);
     fit.triangle[i] = there.halfedge;
     if (there.halfedge == kNone) continue;
     std::array<std::size_t, 3> wedge{};
@@ -338,8 +236,8 @@ void step_values(const SurfaceMesh& mesh, const std::vector<Facet>& facets, Wedg
 
 void fit_values(const SurfaceMesh& mesh, WedgeValues& values, const FitSamples& samples, Fit& fit) {
   constexpr int kValueRounds = 4;
-  const std::vector<Facet> facets = facets_of(mesh);
-  for (int round = 0; round < kValueRounds; ++round) step_values(mesh, facets, values, samples, fit);
+  const WalkedSurface surface(mesh, mesh.position);
+  for (int round = 0; round < kValueRounds; ++round) step_values(mesh, surface, values, samples, fit);
 }
 
 // From collapse to collapse to the vertex that is left.
@@ -354,6 +252,7 @@ void follow_collapses(const SurfaceMesh& mesh, std::vector<std::int32_t>& vertex
 FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const SimplifySurfaceOptions& options) {
   FitSamples samples;
   samples.place = mesh.position;
+  samples.triangles = mesh;
   samples.weight.assign(mesh.position.size(), 0);
   samples.vertex.resize(mesh.position.size());
   for (std::size_t v = 0; v < samples.vertex.size(); ++v) samples.vertex[v] = static_cast<std::int32_t>(v);

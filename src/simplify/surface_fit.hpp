@@ -13,6 +13,7 @@ namespace tinsmith {
 /// A surface before its simplification: its vertices, and after them the middles of its triangles.
 struct FitSamples {
   std::vector<Vec<3>> place;
+  Halfedges triangles;               // over the vertices
   std::vector<float> weight;         // by the areas around it
   std::vector<float> values;         // of the vertices, n_components each; empty: only places are fitted
   std::vector<std::int32_t> vertex;  // near which it lies: of the one that goes in a collapse, the one that stays
@@ -22,8 +23,9 @@ struct FitSamples {
 FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const SimplifySurfaceOptions& options);
 
 /// Moves interior vertices, and then changes their values, so that the samples are nearer to the surface, and their
-/// values to those there. Where a sample got farther off than any was before, the vertices are drawn back half of
-/// the way. No triangle turns over, nor away from a neighbour; lines, borders and seams stay.
+/// values to those there. Where a sample got farther off than any was before, or a triangle farther from the input,
+/// the vertices are drawn back half of the way. No triangle turns over, nor away from a neighbour; lines, borders
+/// and seams stay.
 void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples);
 
 }  // namespace tinsmith

@@ -371,9 +371,10 @@ struct NormalTurn {
   std::size_t n_flipped = 0;  // triangles turned by more than 90 degrees
 };
 
-/// How far triangles are turned against the reference where it is nearest to their middle; of several that are as
-/// near (at its edges and vertices) the one that is turned least. Triangles without area are left out.
-inline NormalTurn normal_turn(const Surface& s, const Surface& reference) {
+/// How far triangles are turned against the reference where it is nearest to their middle; of several places that
+/// are as near (at its edges and vertices), or nearer than `reaches` times that, the one that is turned least.
+/// Triangles without area are left out.
+inline NormalTurn normal_turn(const Surface& s, const Surface& reference, double reaches = 1) {
   const TriangleTree tree(reference);
   const auto [low, high] = bounding_box(reference);
   const double epsilon = 1e-9 * norm(minus(high, low));
@@ -382,7 +383,7 @@ inline NormalTurn normal_turn(const Surface& s, const Surface& reference) {
     const Point3 n = doubled_area_normal(s, t);
     if (norm(n) == 0) continue;
     const Point3 middle = times(plus(s.position[t[0]], plus(s.position[t[1]], s.position[t[2]])), 1.0 / 3);
-    const double reach = tree.nearest(middle).distance + epsilon;
+    const double reach = reaches * tree.nearest(middle).distance + epsilon;
     double least = 180;
     tree.visit(
         [&](const Box& box) { return squared_distance(box, middle) <= reach * reach; },
