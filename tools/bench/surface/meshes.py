@@ -4,6 +4,7 @@ libcgal-demo, data/meshes: the Stanford bunny (a laser scan) and CGAL's elephant
 mricron-data: MRI of a head (ch2, Montreal). Its iso-surfaces, of the brain (closed, 111 864 triangles, genus 60) and of
 the head above a slice (open, 201 586 triangles), are what a scanner gives: noise, steps and handles. slivers is the
 brain at a value that voxels have: 2 920 of its 109 716 triangles have no area.
+The others are made by shapes.py.
 """
 
 import tarfile
@@ -15,6 +16,7 @@ from vtkmodules.vtkImagingGeneral import vtkImageGaussianSmooth
 from vtkmodules.vtkIOImage import vtkNIFTIImageReader
 
 import plain_ply
+import shapes
 import vtk_mesh
 
 PACKAGES = ["libcgal-demo", "mricron-data"]
@@ -60,6 +62,11 @@ MESHES = {
     "brain": lambda packages: _of_mri(packages, "ch2bet.nii.gz", 60.5, 2, 0),
     "head": lambda packages: _of_mri(packages, "ch2.nii.gz", 40.5, 1, 60),
     "slivers": lambda packages: _of_mri(packages, "ch2bet.nii.gz", 60, 2, 0),
+    "sphere": lambda _: shapes.sphere(),
+    "torus": lambda _: shapes.torus(),
+    "cube": lambda _: shapes.cube(),
+    "scan": lambda _: shapes.scan(),
+    "sheet": lambda _: shapes.sheet(),
 }
 
 
