@@ -46,11 +46,24 @@ bool RasterInputs::add(const std::string& path, const InputOptions& options) {
   return true;
 }
 
+// Before the dataset is given back: it may keep a block that failed as if it had been read, or take a tile that it
+// can't open for a void without saying so again.
+template <typename Ask>
+auto RasterInputs::noting_damage(std::size_t input, Ask ask) const {
+  try {
+    return ask();
+  } catch (const UnreadableError&) {
+    const std::lock_guard lock(mutex_);
+    if (skip_) damage_.try_emplace(input);
+    throw;
+  }
+}
+
 bool RasterInputs::is_surely_void(std::size_t input, const GridRect& rect) const {
   if (!sources_[input].knows_voids || is_damaged(input)) return false;
   try {
     const DatasetPool::Loan dataset(pool_, input);
-    return tinsmith::is_surely_void(*dataset, sources_[input], rect);
+    return noting_damage(input, [&] { return tinsmith::is_surely_void(*dataset, sources_[input], rect); });
   } catch (const UnreadableError&) {
     if (!skip_) throw;
     return false;  // read() says more
@@ -61,15 +74,10 @@ std::vector<double> RasterInputs::read(std::size_t input, const GridRect& rect) 
   if (is_damaged(input)) return read_sound_blocks(input, rect);
   try {
     const DatasetPool::Loan dataset(pool_, input);
-    if (tinsmith::is_surely_void(*dataset, sources_[input], rect)) return {};
-    try {
-      return read_heights(*dataset, sources_[input], rect);
-    } catch (const UnreadableError&) {
-      // Before the loan ends: GDAL may keep a block that failed as if it had been read.
-      const std::lock_guard lock(mutex_);
-      if (skip_) damage_.try_emplace(input);
-      throw;
-    }
+    return noting_damage(input, [&] {
+      const bool is_void = tinsmith::is_surely_void(*dataset, sources_[input], rect);
+      return is_void ? std::vector<double>() : read_heights(*dataset, sources_[input], rect);
+    });
   } catch (const UnreadableError&) {
     if (!skip_) throw;
   }

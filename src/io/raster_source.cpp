@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "io/raster_dataset.hpp"
+#include "io/vrt_sources.hpp"
 #include "samples/height_limit.hpp"
 #include "tinsmith/error.hpp"
 
@@ -82,13 +83,15 @@ void require_usable_band(GDALDataset& dataset, const std::string& path, int band
 }
 
 // What GDAL makes of a block that the file does not hold: nodata, in a GeoTIFF without it 0. Only these drivers say
-// which blocks they hold; a VRT may hide its nodata, hence it has to declare it.
+// which blocks they hold; a VRT may hide its nodata, hence it has to declare it, and its overviews hide which tiles
+// are missing (see touches_readable_only).
 bool knows_voids(GDALDataset& dataset, const RasterSource& source) {
   const GDALDriver* driver = dataset.GetDriver();
   const std::string_view name = driver == nullptr ? "" : driver->GetDescription();
   if (name != "GTiff" && name != "COG" && name != "VRT") return false;
-  const std::optional<double> declared = declared_nodata(*dataset.GetRasterBand(source.band));
-  if (!declared && name == "VRT") return false;
+  GDALRasterBand& band = *dataset.GetRasterBand(source.band);
+  const std::optional<double> declared = declared_nodata(band);
+  if (name == "VRT" && (!declared || band.GetOverviewCount() > 0)) return false;
   const auto empty = nodata_in_type(declared.value_or(0), source.type, source.is_signed_byte);
   return empty && is_void(*empty, source);
 }
@@ -126,6 +129,29 @@ std::string place_of(const GridRect& rect) {
                      rect.y0 + rect.height - 1);
 }
 
+bool is_vrt(GDALDataset& dataset) {
+  const GDALDriver* driver = dataset.GetDriver();
+  return driver != nullptr && std::string_view(driver->GetDescription()) == "VRT";
+}
+
+// The reason GDAL gives; of a VRT it gives it for the first dataset only, and the file of it that can't be opened
+// has to be looked for.
+[[noreturn]] void refuse_unreadable(GDALRasterBand& band, const RasterSource& source, const GridRect& rect) {
+  std::string reason = gdal_reason();
+  if (reason.empty()) reason = reason_of_vrt(band, source.path);
+  throw UnreadableError(
+      fmt::format("{}: {} can't be read{}; a file is damaged, cut short or missing: get it again, or leave what it "
+                  "holds as a void with --skip-unreadable",
+                  source.path, place_of(rect), reason));
+}
+
+// A VRT calls a tile that it can't open empty, but it can't read it either: not even a single value for all.
+bool touches_readable_only(GDALRasterBand& band, const GridRect& rect) {
+  double value = 0;
+  return band.RasterIO(GF_Read, rect.x0, rect.y0, rect.width, rect.height, &value, 1, 1, GDT_Float64, 0, 0,
+                       nullptr) == CE_None;
+}
+
 // GDAL may fill a block in and go on after a failure: its last error counts too, not its return value only.
 template <typename Value>
 std::vector<Value> read_band(GDALRasterBand& band, const RasterSource& source, const GridRect& rect) {
@@ -135,8 +161,7 @@ std::vector<Value> read_band(GDALRasterBand& band, const RasterSource& source, c
   const CPLErr status = band.RasterIO(GF_Read, rect.x0, rect.y0, rect.width, rect.height, values.data(), rect.width,
                                       rect.height, kType, 0, 0, nullptr);
   if (status == CE_None && CPLGetLastErrorType() < CE_Failure) return values;
-  throw UnreadableError(fmt::format("{}: {} can't be read{}; the file seems damaged or cut short, get it again",
-                                    source.path, place_of(rect), gdal_reason()));
+  refuse_unreadable(band, source, rect);
 }
 
 void void_where_zero(std::vector<double>& heights, const std::vector<float>& mask) {
@@ -226,8 +251,11 @@ bool is_surely_void(GDALDataset& dataset, const RasterSource& source, const Grid
   if (!source.knows_voids) return false;
   const QuietGdal quiet;
   GDALRasterBand& band = *dataset.GetRasterBand(source.band);
-  return band.GetDataCoverageStatus(rect.x0, rect.y0, rect.width, rect.height, 0, nullptr) ==
-         GDAL_DATA_COVERAGE_STATUS_EMPTY;
+  const int status = band.GetDataCoverageStatus(rect.x0, rect.y0, rect.width, rect.height, 0, nullptr);
+  const bool is_empty = status == GDAL_DATA_COVERAGE_STATUS_EMPTY;
+  if (CPLGetLastErrorType() >= CE_Failure || (is_empty && is_vrt(dataset) && !touches_readable_only(band, rect)))
+    refuse_unreadable(band, source, rect);
+  return is_empty;
 }
 
 std::vector<double> read_heights(GDALDataset& dataset, const RasterSource& source, const GridRect& rect) {

@@ -45,7 +45,8 @@ bool is_void(double value, const RasterSource& source);
 /// or the raster is only placed by control points; UsageError for band numbers below 1.
 RasterSource read_source(GDALDataset& dataset, const std::string& path, const InputOptions& options);
 
-/// Whether the file holds nothing of a rectangle that lies inside the raster: all of it is void.
+/// Whether the file holds nothing of a rectangle that lies inside the raster: all of it is void. Throws
+/// UnreadableError when a file that a VRT takes it from can't be opened.
 bool is_surely_void(GDALDataset& dataset, const RasterSource& source, const GridRect& rect);
 
 /// The heights of a rectangle that lies inside the raster, row by row, NaN for voids. Throws UnreadableError when
