@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "io/glb.hpp"
+#include "io/mesh_text.hpp"
 #include "io/obj.hpp"
 #include "io/ply.hpp"
 #include "io/two_dm.hpp"
@@ -122,6 +123,11 @@ std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_verti
   const std::uint64_t n_digits = format.digits * std::to_string(n_vertices).size();
   const std::uint64_t of_vertex = format.vertex_bytes + (n_channels > 0 ? format.colour_bytes : 0);
   return n_vertices * of_vertex + n_triangles * (format.triangle_bytes + n_digits);
+}
+
+void require_place_for_crs(const std::string& path, const std::string& crs_wkt) {
+  const std::string format = extension(path);
+  if (format == ".obj" || format == ".2dm") require_free_prj(path, crs_wkt);
 }
 
 void require_format_holds_colour(const std::string& path, int n_channels) {

@@ -39,13 +39,17 @@ std::uint64_t expected_mesh_bytes(const std::string& path, std::uint64_t n_verti
 /// says which can. .ply and .glb hold all, .obj those without alpha, .2dm none.
 void require_format_holds_colour(const std::string& path, int n_channels);
 
+/// Throws OutputError when the CRS of a mesh in the format of this path goes into a .prj and one is there that says
+/// another CRS. write_mesh does, too; this tells before the work.
+void require_place_for_crs(const std::string& path, const std::string& crs_wkt);
+
 /// Writes aside and renames when whole, so that a failed write leaves the previous file as it was. Writes the
-/// .prj companion of .obj and .2dm the same way. The bytes depend on the arguments only, the path excluded.
-/// Goes through the vertices once and through the triangles once, in a few MB of memory. Throws OutputError (with
-/// the system's reason), and ResourceError before a byte is written when the format can't hold the mesh.
-/// Colours become whole levels of red, green and blue: grey is all three alike, the second of two and the fourth of
-/// four channels is alpha. .ply: uchar properties; .glb: COLOR_0, linear in 16 bits; .obj: fractions of 255 behind
-/// the coordinates.
+/// .prj companion of .obj and .2dm the same way, unless it is there. The bytes depend on the arguments only, the
+/// path excluded. Goes through the vertices once and through the triangles once, in a few MB of memory. Throws
+/// OutputError (with the system's reason), and ResourceError before a byte is written when the format can't hold
+/// the mesh. Colours become whole levels of red, green and blue: grey is all three alike, the second of two and the
+/// fourth of four channels is alpha. .ply: uchar properties; .glb: COLOR_0, linear in 16 bits; .obj: fractions of
+/// 255 behind the coordinates.
 void write_mesh(const std::string& path, const TerrainSurface& surface, const GridFrame& frame);
 void write_mesh(const std::string& path, const TerrainMesh& mesh, const GridFrame& frame);
 

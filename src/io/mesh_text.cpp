@@ -12,10 +12,11 @@
 #include <functional>
 #include <iterator>
 #include <span>
-#include <system_error>
 #include <vector>
 
+#include "geodesy/crs.hpp"
 #include "io/mesh_file.hpp"
+#include "tinsmith/error.hpp"
 
 namespace tinsmith {
 namespace {
@@ -245,10 +246,21 @@ std::string read_prj(const std::string& mesh_path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-FileWithPrj::FileWithPrj(const std::string& path, const std::string& crs_wkt)
-    : prj_path_(prj_path(path)), mesh_(path) {
-  if (crs_wkt.empty()) return;
-  prj_.emplace(prj_path_);
+void require_free_prj(const std::string& mesh_path, const std::string& crs_wkt) {
+  const std::string path = prj_path(mesh_path);
+  if (!std::filesystem::exists(path)) return;
+  const std::string there = read_prj(mesh_path);
+  const std::string wanted = crs_wkt.empty() ? "" : prj_text(crs_wkt);
+  if (there == wanted || is_same_crs(there, wanted)) return;
+  throw OutputError(
+      fmt::format("{}: is there and would say {} of {}; choose another name for that, or move the .prj away", path,
+                  wanted.empty() ? "a CRS, which is unknown," : "another CRS", mesh_path));
+}
+
+FileWithPrj::FileWithPrj(const std::string& path, const std::string& crs_wkt) : mesh_(path) {
+  require_free_prj(path, crs_wkt);
+  if (crs_wkt.empty() || std::filesystem::exists(prj_path(path))) return;
+  prj_.emplace(prj_path(path));
   prj_->write(prj_text(crs_wkt));
 }
 
@@ -256,8 +268,6 @@ void FileWithPrj::commit() {
   mesh_.finish();
   if (prj_) prj_->commit();
   mesh_.commit();
-  std::error_code ignored;
-  if (!prj_) std::filesystem::remove(prj_path_, ignored);
 }
 
 }  // namespace tinsmith

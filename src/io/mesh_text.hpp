@@ -95,8 +95,12 @@ void visit_text(InputFile& file, const TextLines& lines, const MeshVisitor& visi
 /// What stands in the .prj beside a mesh; empty when there is none.
 std::string read_prj(const std::string& mesh_path);
 
-/// A text mesh and the .prj beside it (ESRI's WKT, else the CRS's own), put in place together. A .prj of an
-/// earlier mesh of this name goes when the new one has no CRS.
+/// Throws OutputError when a .prj of another CRS is beside the mesh to be: it may belong to any other file of that
+/// name, so it is neither replaced nor removed, nor may it speak for the mesh.
+void require_free_prj(const std::string& mesh_path, const std::string& crs_wkt);
+
+/// A text mesh and the .prj beside it (ESRI's WKT, else the CRS's own), put in place together. A .prj that is there
+/// is left as it is: see require_free_prj.
 class FileWithPrj {
  public:
   FileWithPrj(const std::string& path, const std::string& crs_wkt);
@@ -104,7 +108,6 @@ class FileWithPrj {
   void commit();
 
  private:
-  std::string prj_path_;
   OutputFile mesh_;
   std::optional<OutputFile> prj_;
 };

@@ -199,6 +199,7 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
                                   static_cast<std::size_t>(thread_count(options)));
   if (!options.color.empty()) require_format_holds_colour(output, 1);
   const RasterField field(inputs, input_options);
+  require_place_for_crs(output, field.frame().crs_wkt);
   std::optional<ColourRaster> colours;
   if (!options.color.empty()) colours.emplace(options.color, field.frame(), field.width(), field.height());
   if (colours) require_format_holds_colour(output, colours->n_channels());

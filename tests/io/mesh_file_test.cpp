@@ -22,11 +22,11 @@ double signed_area(const Tin& tin, const std::array<std::uint32_t, 3>& triangle)
 }
 
 TEST(MeshFile, ReadsBackWhatWasWritten) {
-  const ScratchFolder folder;
   const TerrainMesh mesh = random_mesh(11, 40, 30);
   const auto [lowest, highest] = std::minmax_element(mesh.height.begin(), mesh.height.end());
   for (const GridFrame& frame : frames())
     for (const std::string extension : kExtensions) {
+      const ScratchFolder folder;  // its own, for the .prj
       const std::string path = folder.file("mesh" + extension);
       write_mesh(path, mesh, frame);
       const Tin tin = read_mesh(path);
@@ -79,15 +79,39 @@ TEST(MeshFile, CarriesTheCrs) {
   }
 }
 
-TEST(MeshFile, LeavesNoPrjOfAnEarlierMesh) {
+TEST(MeshFile, NeitherReplacesNorRemovesNorFollowsAPrjOfAnotherCrs) {
   const ScratchFolder folder;
   const TerrainMesh mesh = random_mesh(5, 2, 2);
+  const std::string prj = folder.file("a.prj");
+  for (const std::string extension : {".obj", ".2dm"}) {
+    const std::string path = folder.file("a" + extension);
+    write_mesh(path, mesh, frames()[0]);
+    const std::string own = bytes_of(prj);
+    const std::string written = bytes_of(path);
+    EXPECT_THROW(write_mesh(path, mesh, GridFrame{}), OutputError) << "it would be read with the CRS of the .prj";
+    EXPECT_EQ(bytes_of(prj), own);
+    EXPECT_EQ(bytes_of(path), written);
+    std::ofstream(prj) << R"(LOCAL_CS["of roads"])";
+    EXPECT_THROW(require_place_for_crs(path, frames()[0].crs_wkt), OutputError);
+    EXPECT_THROW(write_mesh(path, mesh, frames()[0]), OutputError);
+    EXPECT_EQ(bytes_of(prj), R"(LOCAL_CS["of roads"])");
+    std::filesystem::remove(prj);
+  }
+}
+
+TEST(MeshFile, LeavesAPrjOfTheSameCrsAsItIs) {
+  const ScratchFolder folder;
+  const TerrainMesh mesh = random_mesh(5, 2, 2);
+  OGRSpatialReference crs;
+  crs.importFromWkt(frames()[0].crs_wkt.c_str());
+  char* wkt = nullptr;
+  crs.exportToPrettyWkt(&wkt);
+  const std::string other_words = wkt;
+  CPLFree(wkt);
+  std::ofstream(folder.file("a.prj")) << other_words;
   for (const std::string extension : {".obj", ".2dm"}) {
     write_mesh(folder.file("a" + extension), mesh, frames()[0]);
-    EXPECT_TRUE(std::filesystem::exists(folder.file("a.prj")));
-    write_mesh(folder.file("a" + extension), mesh, GridFrame{});
-    EXPECT_FALSE(std::filesystem::exists(folder.file("a.prj")));
-    EXPECT_EQ(read_mesh(folder.file("a" + extension)).crs_wkt, "");
+    EXPECT_EQ(bytes_of(folder.file("a.prj")), other_words);
   }
 }
 

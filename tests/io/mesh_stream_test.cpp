@@ -132,7 +132,6 @@ TEST(MeshStream, NeedsAFewMegabytesForAnyMesh) {
 #endif
 
 TEST(MeshStream, WritesASurfaceAsTheMeshInMemory) {
-  const ScratchFolder folder;
   const PlaneSurface plane(70);
   TerrainMesh mesh;
   plane.for_each_vertex_block([&](TerrainSurface::VertexBlock block) {
@@ -148,6 +147,7 @@ TEST(MeshStream, WritesASurfaceAsTheMeshInMemory) {
   });
   for (const GridFrame& frame : frames())
     for (const std::string extension : kExtensions) {
+      const ScratchFolder folder;  // its own, for the .prj
       write_mesh(folder.file("surface" + extension), plane, frame);
       write_mesh(folder.file("mesh" + extension), mesh, frame);
       EXPECT_TRUE(bytes_of(folder.file("surface" + extension)) == bytes_of(folder.file("mesh" + extension)))
