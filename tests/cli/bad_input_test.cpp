@@ -127,6 +127,17 @@ TEST_F(BadOutput, IsAnInput) {
   EXPECT_EQ(text_of(dem), before);
 }
 
+TEST_F(BadOutput, IsAnotherOutputOrAListOfInputs) {
+  const std::string dem = write("dem.tif", {});
+  const std::string list = write_text("list.txt", dem + "\n");
+  const std::string out = path("out.ply");
+  expect_complaint({"compress", dem, out, "--max-error", "1", "--json", out}, 2, {out, "two outputs"});
+  expect_complaint({"compress", dem, out, "--max-error", "1", "--json", path("./out.ply")}, 2, {"two outputs"});
+  expect_complaint({"compress", "@" + list, out, "--max-error", "1", "--json", list}, 2, {list, "input"});
+  expect_complaint({"info", "@" + list, "--json", list}, 2, {list, "input"});
+  EXPECT_EQ(text_of(list), dem + "\n");
+}
+
 TEST_F(BadOutput, FolderThatCantBeWritten) {
   const std::string dem = write("dem.tif", {});
   expect_complaint({"compress", dem, path("none/out.ply"), "--max-error", "1"}, 4, {"none/out.ply"});

@@ -166,7 +166,11 @@ TEST_F(BadSurface, OutputsThatAreInputs) {
   expect_complaint({"simplify", mesh, path("./sheet.ply")}, 2, {"input"});
   expect_complaint({"simplify", mesh, edges, "--feature-edges", edges}, 2, {edges, "input"});
   expect_complaint({"simplify", mesh, output, "--json", mesh}, 2, {mesh});
-  expect_complaint({"simplify", mesh, output, "--json", output}, 2, {output});
+  expect_complaint({"simplify", mesh, output, "--json", output}, 2, {output, "two outputs"});
+  const std::string steps = path("steps.tspm");
+  expect_complaint({"simplify", mesh, output, "--progressive", steps, "--json", steps}, 2, {steps, "two outputs"});
+  expect_complaint({"simplify", mesh, output, "--progressive", steps, "--json", path("./steps.tspm")}, 2,
+                   {"steps.tspm", "two outputs"});
   EXPECT_EQ(text_of(mesh), sheet_text(4));
   EXPECT_EQ(text_of(edges), "0 1\n");
   EXPECT_EQ(files(), before);

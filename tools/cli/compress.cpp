@@ -16,7 +16,6 @@
 #include "input_flags.hpp"
 #include "inputs.hpp"
 #include "io/mesh_file.hpp"
-#include "io/raster_list.hpp"
 #include "plan_summary.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
@@ -154,17 +153,14 @@ CompressOptions to_options(const Flags& flags) {
 
 // All that can be found wrong with the outputs before the work.
 void require_usable_outputs(const Flags& flags, const std::string& output) {
-  std::vector<std::string> inputs = expand_lists(flags.files);
+  std::vector<std::string> inputs = files_read(flags.files);
   if (!flags.color.empty()) inputs.push_back(flags.color);
   const std::string& json = flags.json;
   require_mesh_extension(output);
   if (!flags.color.empty()) require_format_holds_colour(output, 1);
-  require_other_than_inputs(output, inputs);
+  require_apart({output, json}, inputs);
   require_writable(output);
-  if (json.empty() || json == "-") return;
-  require_other_than_inputs(json, inputs);
-  require_other_than_inputs(json, {output});
-  require_writable(json);
+  if (!json.empty() && json != "-") require_writable(json);
 }
 
 int threads_used(int asked) {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "input_flags.hpp"
-#include "io/raster_list.hpp"
+#include "inputs.hpp"
 #include "report.hpp"
 #include "text.hpp"
 #include "tinsmith/describe.hpp"
@@ -43,7 +43,7 @@ struct Flags {
 
 int say_what_is_in(const Flags& flags) {
   const InputOptions options = to_input_options(flags.input);
-  if (!flags.json.empty() && flags.json != "-") require_other_than_inputs(flags.json, expand_lists({flags.file}));
+  require_apart({flags.json}, files_read({flags.file}));
   const auto entries = describe(flags.file, options);
   if (!flags.json.empty()) {
     Json object;

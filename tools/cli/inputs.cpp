@@ -9,6 +9,7 @@
 #include "io/colour_raster.hpp"
 #include "io/mesh_file.hpp"
 #include "io/raster_field.hpp"
+#include "io/raster_list.hpp"
 #include "text.hpp"
 #include "tinsmith/error.hpp"
 
@@ -43,6 +44,13 @@ OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptio
   const ColourRaster colours(color, field.frame(), field.width(), field.height());
   if (const auto remark = colours.remark()) opened.remarks.push_back(*remark);
   return opened;
+}
+
+std::vector<std::string> files_read(const std::vector<std::string>& paths) {
+  std::vector<std::string> files = expand_lists(paths);
+  for (const std::string& path : paths)
+    if (path.starts_with('@')) files.push_back(path.substr(1));
+  return files;
 }
 
 void print_remarks(const std::vector<std::string>& remarks, bool quiet) {

@@ -19,6 +19,9 @@ struct OpenedInputs {
 OpenedInputs open_inputs(const std::vector<std::string>& paths, const InputOptions& options,
                          const std::string& color);
 
+/// All files that these inputs stand for: those that lists name, and the lists themselves.
+std::vector<std::string> files_read(const std::vector<std::string>& paths);
+
 /// Remarks on standard error, one line each.
 void print_remarks(const std::vector<std::string>& remarks, bool quiet);
 

@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "input_flags.hpp"
+#include "inputs.hpp"
 #include "io/mesh_file.hpp"
-#include "io/raster_list.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 #include "text.hpp"
@@ -75,7 +75,7 @@ std::vector<Panel> to_panels(const std::vector<std::string>& names) {
 int draw(Flags flags) {
   const std::string png = flags.files.back();
   flags.files.pop_back();
-  require_other_than_inputs(png, expand_lists(flags.files));
+  require_apart({png}, files_read(flags.files));
   std::vector<std::string> rasters;
   std::string mesh;
   for (const std::string& file : flags.files) {

@@ -48,6 +48,14 @@ std::string as_text(const Json& value) {
   return value.dump();
 }
 
+// What is not there yet is compared by its folder and name.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (a == b || fs::equivalent(a, b, error)) return true;
+  const fs::path place = fs::weakly_canonical(fs::absolute(a, error), error);
+  return !error && place == fs::weakly_canonical(fs::absolute(b, error), error) && !error;
+}
+
 }  // namespace
 
 Resources resources_so_far() {
@@ -128,11 +136,17 @@ void write_json(const Json& report, const std::string& path) {
 
 void require_writable(const std::string& path) { const OutputFile probe(path); }
 
-void require_other_than_inputs(const std::string& path, const std::vector<std::string>& inputs) {
-  for (const std::string& input : inputs) {
-    std::error_code missing;  // what is not there can't be the same file
-    if (path == input || fs::equivalent(path, input, missing))
-      throw UsageError(fmt::format("{}: is an input too; write the output under another name", path));
+void require_apart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  std::vector<std::string> earlier;
+  for (const std::string& output : outputs) {
+    if (output.empty() || output == "-") continue;
+    for (const std::string& input : inputs)
+      if (is_same_file(output, input))
+        throw UsageError(fmt::format("{}: is an input too; write the output under another name", output));
+    for (const std::string& other : earlier)
+      if (is_same_file(output, other))
+        throw UsageError(fmt::format("{}: is named for two outputs; give each a name of its own", output));
+    earlier.push_back(output);
   }
 }
 

@@ -38,8 +38,8 @@ void write_json(const Json& report, const std::string& path);
 /// Throws OutputError when a file can't be written there: before the work, not after it.
 void require_writable(const std::string& path);
 
-/// Throws UsageError when the path is one of the inputs.
-void require_other_than_inputs(const std::string& path, const std::vector<std::string>& inputs);
+/// Throws UsageError when an output is one of the inputs, or two outputs are the same file. "" and "-" are none.
+void require_apart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 /// Broken promises on standard error, in one line; the exit code.
 int verdict(const Json& report, const std::string& mesh);

@@ -163,11 +163,10 @@ void require_surface_extension(const std::string& path) {
 
 bool is_progressive(const std::string& path) { return extension_of(path) == ".tspm"; }
 
-void require_usable_progressive(const Flags& flags, const std::vector<std::string>& inputs) {
+void require_usable_progressive(const Flags& flags) {
   if (flags.progressive.empty()) return;
   if (!is_progressive(flags.progressive))
     throw UsageError(fmt::format("--progressive {}: the extension must be .tspm", flags.progressive));
-  require_other_than_inputs(flags.progressive, inputs);
   require_writable(flags.progressive);
 }
 
@@ -176,13 +175,10 @@ void require_usable_outputs(const Flags& flags) {
   std::vector<std::string> inputs{flags.mesh};
   if (!flags.feature_edges.empty()) inputs.push_back(flags.feature_edges);
   require_surface_extension(flags.output);
-  require_other_than_inputs(flags.output, inputs);
+  require_apart({flags.output, flags.progressive, flags.json}, inputs);
   require_writable(flags.output);
-  require_usable_progressive(flags, inputs);
-  if (flags.json.empty() || flags.json == "-") return;
-  require_other_than_inputs(flags.json, inputs);
-  require_other_than_inputs(flags.json, {flags.output});
-  require_writable(flags.json);
+  require_usable_progressive(flags);
+  if (!flags.json.empty() && flags.json != "-") require_writable(flags.json);
 }
 
 /// What the format of the output can't hold of the surface.

@@ -13,7 +13,6 @@
 #include "input_flags.hpp"
 #include "inputs.hpp"
 #include "io/raster_field.hpp"
-#include "io/raster_list.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 #include "text.hpp"
@@ -104,11 +103,10 @@ int verify_mesh(Flags flags) {
   const InputOptions options = to_input_options(flags.input);
   VerifyOptions verify_options = to_options(flags);
   const ProgressForm progress = choose_progress(flags.progress, flags.quiet);
-  if (!flags.json.empty() && flags.json != "-") {
-    require_other_than_inputs(flags.json, expand_lists(flags.files));
-    require_other_than_inputs(flags.json, {mesh});
-    require_writable(flags.json);
-  }
+  std::vector<std::string> inputs_of_all = files_read(flags.files);
+  inputs_of_all.insert(inputs_of_all.end(), {mesh, flags.color});
+  require_apart({flags.json}, inputs_of_all);
+  if (!flags.json.empty() && flags.json != "-") require_writable(flags.json);
   if (verify_options.memory > 0) set_raster_cache(verify_options.memory / 8);
   const OpenedInputs inputs = open_inputs(flags.files, options, flags.color);
   print_remarks(inputs.remarks, flags.quiet);
