@@ -14,8 +14,9 @@ void require_sensible(const CompressOptions& options) {
   if (stops != 1) throw UsageError("give exactly one of max_error, triangles and ratio, for example max_error = 5");
   if (options.max_error && !(*options.max_error >= 0 && std::isfinite(*options.max_error)))
     throw UsageError(fmt::format("max_error is {}: it must be a number of metres, 0 or more", *options.max_error));
-  if (options.triangles && !(*options.triangles >= 2 && std::isfinite(*options.triangles)))
-    throw UsageError(fmt::format("triangles is {}: it must be 2 or more", *options.triangles));
+  if (options.triangles && !(*options.triangles >= 2 && std::isfinite(*options.triangles) &&
+                             *options.triangles == std::floor(*options.triangles)))
+    throw UsageError(fmt::format("triangles is {}: it must be a whole number, 2 or more", *options.triangles));
   if (options.ratio && !(*options.ratio > 0 && *options.ratio <= 1))
     throw UsageError(fmt::format("ratio is {}: it must be more than 0 and at most 1", *options.ratio));
   if (options.window < 4)

@@ -18,6 +18,10 @@ constexpr double kFinest = 1e-4;   // below this only 0 itself is left to try
 constexpr double kCoarsest = 1e9;  // here nothing but the outline is left
 constexpr double kClosest = 1.0005;
 constexpr double kCloseEnough = 0.99;
+// So few triangles stay as many over a range of tolerances (2 from some tolerance on), of which the least is
+// wanted: it is found to a hundredth. Of more triangles each is worth less of the tolerance than that.
+constexpr double kFew = 100;
+constexpr double kCloseToLeast = 1.01;
 constexpr int kMostRuns = 16;
 
 // log(triangles) over log(tolerance) is nearly straight over the ranges that matter; aimed a little below the
@@ -33,10 +37,13 @@ double between(const Attempt& fine, const Attempt& coarse, double limit) {
 std::optional<double> next_tolerance(const std::optional<Attempt>& fine, const std::optional<Attempt>& coarse,
                                      double limit) {
   if (!coarse) return fine->tolerance < kCoarsest ? std::optional(fine->tolerance * kStep) : std::nullopt;
-  if (static_cast<double>(coarse->triangles) >= kCloseEnough * limit || coarse->tolerance == 0) return std::nullopt;
+  const bool is_few = limit < kFew;
+  if (coarse->tolerance == 0) return std::nullopt;
+  if (!is_few && static_cast<double>(coarse->triangles) >= kCloseEnough * limit) return std::nullopt;
   if (!fine) return coarse->tolerance / kStep < kFinest ? 0 : coarse->tolerance / kStep;
-  if (fine->tolerance == 0 || coarse->tolerance / fine->tolerance < kClosest) return std::nullopt;
-  return between(*fine, *coarse, limit);
+  if (fine->tolerance == 0 || coarse->tolerance / fine->tolerance < (is_few ? kCloseToLeast : kClosest))
+    return std::nullopt;
+  return is_few ? std::sqrt(fine->tolerance * coarse->tolerance) : between(*fine, *coarse, limit);
 }
 
 // The attempts so far, as far as they still count.

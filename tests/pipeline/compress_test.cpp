@@ -119,6 +119,7 @@ TEST(Compress, ThrowsAtOptionsWithoutSense) {
     refuses([&](CompressOptions& o) { o.max_error.reset(), o.ratio = wrong; });
   }
   refuses([](CompressOptions& o) { o.max_error.reset(), o.triangles = 1; });
+  refuses([](CompressOptions& o) { o.max_error.reset(), o.triangles = 2.5; });
   refuses([](CompressOptions& o) { o.max_error.reset(), o.ratio = 0; });
   refuses([](CompressOptions& o) { o.max_error.reset(), o.ratio = 1.01; });
   refuses([](CompressOptions& o) { o.window = 3; });

@@ -53,6 +53,27 @@ struct Attempted {
   std::set<double> dropped;
 };
 
+// A staircase: from 133.7 on 2 triangles, and so on.
+TEST(Search, OfFewTrianglesFindsTheLeastToleranceThatReachesThem) {
+  for (const auto& [n, least] : {std::pair{2.0, 133.7}, {4.0, 115.4}, {5.0, 115.4}, {40.0, 3.0}, {99.0, 3.0}}) {
+    int n_runs = 0;
+    const Attempts attempts{[&](double tolerance, CompressReport& report) {
+      ++n_runs;
+      report.tolerance = tolerance;
+      return std::make_shared<CountedSurface>(tolerance >= 133.7   ? 2
+                                              : tolerance >= 115.4 ? 4
+                                              : tolerance >= 3     ? 40
+                                                                   : 5000);
+    }};
+    CompressReport report;
+    const auto surface = search_tolerance(attempts, n, {}, report);
+    EXPECT_LE(static_cast<double>(surface->extent().n_triangles), n);
+    EXPECT_GE(report.tolerance, least);
+    EXPECT_LE(report.tolerance, 1.01 * least) << n;
+    EXPECT_LE(n_runs, 12) << n;
+  }
+}
+
 TEST(Search, DropsEveryAttemptButTheResult) {
   for (const double triangles : {30.0, 999.0, 54321.0, 400000.0}) {
     const ScratchFolder folder;

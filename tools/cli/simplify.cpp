@@ -120,7 +120,8 @@ void require_that(bool is_in_range, const char* option, double value, const char
 void require_ranges(const Flags& flags) {
   const SimplifySurfaceOptions& o = flags.options;
   if (o.triangles)
-    require_that(*o.triangles >= 0 && std::isfinite(*o.triangles), "--triangles", *o.triangles, "0 or more");
+    require_that(*o.triangles >= 0 && std::isfinite(*o.triangles) && *o.triangles == std::floor(*o.triangles),
+                 "--triangles", *o.triangles, "a whole number, 0 or more");
   if (o.ratio) require_that(*o.ratio > 0 && *o.ratio <= 1, "--ratio", *o.ratio, "above 0 and at most 1");
   if (o.max_cost)
     require_that(*o.max_cost >= 0 && std::isfinite(*o.max_cost), "--max-cost", *o.max_cost, "0 or more");
