@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace tinsmith {
 struct Tin {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::string crs_wkt;  // empty: unknown
+  std::string crs_wkt;                           // empty: unknown
+  std::optional<double> metres_per_height = {};  // of a unit of z; none: unknown
 };
 
 }  // namespace tinsmith

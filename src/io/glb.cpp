@@ -329,8 +329,10 @@ Document read_document(InputFile& file) {
   file.read(text.data(), text.size());
   try {
     return interpret(Json::parse(text));
-  } catch (const std::exception& error) {
-    file.fail(fmt::format("is no glTF of tinsmith's: {}", one_line(error.what())));
+  } catch (const Json::exception&) {
+    file.fail("is no glTF of tinsmith's: its JSON is damaged or lacks what tinsmith writes");
+  } catch (const std::invalid_argument& error) {
+    file.fail(fmt::format("is no glTF of tinsmith's: {}", error.what()));
   }
 }
 
@@ -425,6 +427,7 @@ std::string visit_glb(const std::string& path, const MeshVisitor& visitor) {
   const Document document = read_document(file);
   require_size(file, document);
   if (visitor.counts) visitor.counts(document.n_vertices, document.n_indices / 3);
+  if (visitor.height_unit) visitor.height_unit(document.local.metres_per_unit[2]);
   visit_vertex_records(
       file, {document.n_vertices, vertex_bytes(document.n_stored), document.n_stored, sizeof(Position), levels_at},
       [&](const char* bytes) { return vertex_at(file, document, bytes); }, visitor);

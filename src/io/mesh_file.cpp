@@ -83,6 +83,12 @@ struct SoundMesh {
     }
   }
 
+  void require_length(double metres) const {
+    if (!(metres > 0 && std::isfinite(metres)))
+      throw InputError(
+          fmt::format("{}: says that a unit of height is {} metres; write the mesh again", path, metres));
+  }
+
   void require_in_range(std::span<const std::array<std::uint64_t, 3>> triangles) {
     for (const auto& triangle : triangles) {
       for (const std::uint64_t corner : triangle)
@@ -165,6 +171,10 @@ std::string visit_mesh(const std::string& path, const MeshVisitor& visitor) {
     sound.require_levels(colours);
     if (visitor.colours) visitor.colours(colours, n_channels);
   };
+  checked.height_unit = [&](double metres) {
+    sound.require_length(metres);
+    if (visitor.height_unit) visitor.height_unit(metres);
+  };
   checked.triangles = [&](std::span<const std::array<std::uint64_t, 3>> triangles) {
     sound.require_in_range(triangles);
     visitor.triangles(triangles);
@@ -195,6 +205,7 @@ Tin read_mesh(const std::string& path, std::vector<Levels>* colours) {
       tin.triangles.push_back(
           {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
   };
+  visitor.height_unit = [&](double metres) { tin.metres_per_height = metres; };
   tin.crs_wkt = visit_mesh(path, visitor);
   return tin;
 }

@@ -70,6 +70,8 @@ struct MeshVisitor {
   /// May be empty. Called for files with colours only, before `vertices` with the same block: levels of red, green,
   /// blue, and of alpha when n_channels is 4, not 3.
   std::function<void(std::span<const Levels>, int n_channels)> colours = nullptr;
+  /// May be empty. Called when the file says how many metres a unit of its heights is.
+  std::function<void(double metres)> height_unit = nullptr;
 };
 
 /// Returns the CRS as WKT, empty when unknown.

@@ -22,6 +22,7 @@ namespace tinsmith {
 namespace {
 
 constexpr std::string_view kCountsComment = "# tinsmith mesh; vertices, triangles:";
+constexpr std::string_view kHeightUnitComment = "# metres per unit of height:";
 
 template <class T>
 void append(std::string& line, T value) {
@@ -136,6 +137,9 @@ FoundTriangles visit_vertices(InputFile& file, const TextLines& lines, const Mes
       vertices.add(value_of(file, line.substr(lines.vertex.size()), lines.vertex_of, vertices.count()));
     } else if (line.starts_with(lines.triangle)) {
       if (triangles.count++ == 0) triangles.begin = begin;
+    } else if (line.starts_with(kHeightUnitComment)) {
+      const double metres = LineNumbers(file, line.substr(kHeightUnitComment.size())).only();
+      if (visitor.height_unit) visitor.height_unit(metres);
     } else if (!counts.read_comment(file, line) && !lines.is_ignored(line)) {
       file.fail("a line is neither a vertex nor a triangle");
     }
@@ -182,6 +186,10 @@ std::string counts_comment(std::uint64_t n_vertices, std::uint64_t n_triangles) 
   return fmt::format("{} {} {}\n", kCountsComment, n_vertices, n_triangles);
 }
 
+std::string height_unit_comment(double metres_per_unit) {
+  return fmt::format("{} {}\n", kHeightUnitComment, metres_per_unit);
+}
+
 void LineNumbers::skip_blanks() {
   std::size_t n = 0;
   while (n < rest_.size() && is_blank(rest_[n])) ++n;
@@ -212,6 +220,12 @@ std::array<std::uint64_t, 3> LineNumbers::corners() {
 }
 
 std::uint64_t LineNumbers::count() { return next<std::uint64_t>(); }
+
+double LineNumbers::only() {
+  const auto value = next<double>();
+  end();
+  return value;
+}
 
 bool LineNumbers::is_end() {
   skip_blanks();

@@ -44,6 +44,9 @@ void append_number(std::string& line, std::uint64_t value);
 /// The comment by which a reader of a text format knows that nothing is missing.
 std::string counts_comment(std::uint64_t n_vertices, std::uint64_t n_triangles);
 
+/// The comment by which a reader of a text format knows what heights are in.
+std::string height_unit_comment(double metres_per_unit);
+
 /// Numbers of a line of text, one after the other. Complains through the file.
 class LineNumbers {
  public:
@@ -53,6 +56,8 @@ class LineNumbers {
   std::array<std::uint64_t, 3> corners();
   std::uint64_t count();
   bool is_end();
+  /// The number of a line that has no other.
+  double only();
   /// Complains unless the line ends here.
   void end();
   [[noreturn]] void fail(const char* what) const { file_.fail(what); }

@@ -32,6 +32,7 @@ bool is_ignored(std::string_view line) { return line.empty() || line.starts_with
 void write_obj(const std::string& path, const TerrainSurface& surface, const GridFrame& frame) {
   FileWithPrj file(path, frame.crs_wkt);
   file.mesh().write(counts_comment(surface.extent().n_vertices, surface.extent().n_triangles));
+  file.mesh().write(height_unit_comment(frame.metres_per_vertical_unit));
   const int n_channels = surface.extent().n_channels;
   std::string lines;
   surface.for_each_vertex_block([&](TerrainSurface::VertexBlock vertices) {

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "io/input_file.hpp"
 #include "io/mesh_file.hpp"
@@ -19,6 +20,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "PLY is written in the machine's byte order");
 
 constexpr std::size_t kPositionBytes = 3 * sizeof(double);
+constexpr std::string_view kHeightUnit = "comment metres per unit of height ";
 constexpr std::array kColours{"red", "green", "blue", "alpha"};
 
 constexpr std::size_t vertex_bytes(int n_stored) { return kPositionBytes + static_cast<std::size_t>(n_stored); }
@@ -42,11 +44,12 @@ std::string header(const TerrainExtent& extent, const GridFrame& frame) {
   for (int i = 0; i < n_stored_channels(extent.n_channels); ++i)
     colours += fmt::format("property uchar {}\n", kColours[static_cast<std::size_t>(i)]);
   return fmt::format(
-      "ply\nformat binary_little_endian 1.0\n{}"
+      "ply\nformat binary_little_endian 1.0\n{}{}{}\n"
       "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
       "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-      frame.crs_wkt.empty() ? "" : fmt::format("comment crs {}\n", one_line(frame.crs_wkt)), extent.n_vertices,
-      colours, extent.n_triangles, name(index_for(extent.n_vertices)));
+      frame.crs_wkt.empty() ? "" : fmt::format("comment crs {}\n", one_line(frame.crs_wkt)), kHeightUnit,
+      frame.metres_per_vertical_unit, extent.n_vertices, colours, extent.n_triangles,
+      name(index_for(extent.n_vertices)));
 }
 
 template <class T>
@@ -62,6 +65,7 @@ struct Header {
   Index index = Index::kInt;
   int n_stored = 0;  // channels of colour
   std::string crs_wkt;
+  std::optional<double> metres_per_height;
 };
 
 std::string_view next_line(InputFile& file) {
@@ -80,8 +84,11 @@ std::string after(const InputFile& file, std::string_view start, std::string_vie
 std::string next_entry(InputFile& file, Header& header) {
   constexpr std::string_view kCrs = "comment crs ";
   std::string_view line = next_line(file);
-  for (; line.starts_with("comment"); line = next_line(file))
+  for (; line.starts_with("comment"); line = next_line(file)) {
     if (line.starts_with(kCrs)) header.crs_wkt = line.substr(kCrs.size());
+    if (line.starts_with(kHeightUnit))
+      header.metres_per_height = LineNumbers(file, line.substr(kHeightUnit.size())).only();
+  }
   return std::string(line);
 }
 
@@ -180,6 +187,7 @@ std::string visit_ply(const std::string& path, const MeshVisitor& visitor) {
   const Header header = read_header(file);
   require_size(file, header);
   if (visitor.counts) visitor.counts(header.n_vertices, header.n_triangles);
+  if (visitor.height_unit && header.metres_per_height) visitor.height_unit(*header.metres_per_height);
   const auto position_at = [](const char* bytes) {
     std::array<double, 3> vertex;
     std::memcpy(vertex.data(), bytes, sizeof vertex);

@@ -455,8 +455,8 @@ Surface read_surface_glb(const std::string& path) {
     const std::vector<char> binary = read_binary(file);
     return surface_of({json, binary}, std::min<std::uint64_t>(std::max(kMaxUnfolded, file.size()),
                                                               std::numeric_limits<std::uint32_t>::max()));
-  } catch (const Json::exception& error) {
-    file.fail(fmt::format("is no valid glTF: {}", one_line(error.what())));
+  } catch (const Json::exception&) {
+    file.fail("is no valid glTF: its JSON is damaged, or lacks what a mesh needs");
   } catch (const std::invalid_argument& error) {
     file.fail(fmt::format("can't be used: {}", error.what()));
   }

@@ -31,6 +31,7 @@ void write_two_dm(const std::string& path, const TerrainSurface& surface, const 
   FileWithPrj file(path, frame.crs_wkt);
   file.mesh().write("MESH2D\n");
   file.mesh().write(counts_comment(surface.extent().n_vertices, surface.extent().n_triangles));
+  file.mesh().write(height_unit_comment(frame.metres_per_vertical_unit));
   std::string lines;
   std::uint64_t number = 0;
   surface.for_each_triangle_block([&](TerrainSurface::TriangleBlock triangles) {

@@ -1,8 +1,11 @@
 #include "tinsmith/describe.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <limits>
 #include <numeric>
 
@@ -12,6 +15,9 @@
 #include "io/raster_field.hpp"
 #include "io/raster_list.hpp"
 #include "render/view.hpp"
+#include "tinsmith/error.hpp"
+#include "tinsmith/progressive.hpp"
+#include "tinsmith/surface.hpp"
 
 namespace tinsmith {
 namespace {
@@ -53,6 +59,12 @@ std::string heights(const HeightRange& range, double metres_per_vertical_unit) {
   if (metres_per_vertical_unit == 1) return metres;
   return fmt::format("{:.10g} to {:.10g} units of {:.10g} m: {}", range.lowest, range.highest,
                      metres_per_vertical_unit, metres);
+}
+
+std::string heights_of_unknown_unit(const HeightRange& range) {
+  if (range.n_valid == 0) return "none";
+  return fmt::format("{:.10g} to {:.10g}, in a unit that the file does not say; --vertical-unit says it",
+                     range.lowest, range.highest);
 }
 
 // The name stands in the first pair of quotes, in every dialect of WKT; an EPSG code in the last brackets.
@@ -134,6 +146,7 @@ std::uint64_t count_components(const Tin& tin) {
 Entries describe_mesh(const std::string& path, const InputOptions& options) {
   const Tin tin = read_mesh(path);
   const CrsUnits units = crs_units(tin.crs_wkt, path);
+  const bool is_known = tin.metres_per_height || options.vertical_unit;
   HeightRange range;
   Extent extent = no_extent();
   for (const auto& [x, y, z] : tin.vertices) {
@@ -147,14 +160,66 @@ Entries describe_mesh(const std::string& path, const InputOptions& options) {
                   {"CRS", crs_name(tin.crs_wkt)},
                   {"CRS unit", horizontal_unit(tin.crs_wkt, path)}};
   if (range.n_valid > 0) entries.emplace_back("extent", extent_text(extent));
-  entries.emplace_back("heights", heights(range, metres_per_height(units, options)));
+  entries.emplace_back("heights", is_known ? heights(range, metres_per_height(tin, units, options))
+                                           : heights_of_unknown_unit(range));
   return entries;
+}
+
+std::string extension_of(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string values_of(const Surface& surface) {
+  std::vector<std::string> names;
+  for (const SurfaceAttribute& one : surface.attributes)
+    names.push_back(one.kind == AttributeKind::kColour   ? "colours"
+                    : one.kind == AttributeKind::kNormal ? "normals"
+                                                         : one.name);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+Entries describe_surface(const std::string& format, const Surface& surface) {
+  Entries entries{{"format", format},
+                  {"vertices", fmt::format("{}", surface.position.size())},
+                  {"triangles", fmt::format("{}", surface.triangles.size())},
+                  {"values", values_of(surface)}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    HeightRange range;
+    for (const auto& position : surface.position) range.add(position[axis]);
+    entries.emplace_back(std::string(1, "xyz"[axis]),
+                         fmt::format("{:.10g} to {:.10g}", range.lowest, range.highest));
+  }
+  return entries;
+}
+
+Entries describe_progressive(const std::string& path) {
+  const ProgressiveSurface progressive = read_progressive(path);
+  return describe_surface(fmt::format("progressive mesh, .tspm, of any resolution from {} triangles",
+                                      progressive.base.triangles.size()),
+                          restore(progressive));
+}
+
+// A mesh of another program, or of simplify, which has no CRS.
+Entries describe_any_surface(const std::string& path) {
+  return describe_surface("surface, " + extension_of(path), read_surface(path));
 }
 
 }  // namespace
 
 Entries describe(const std::string& path, const InputOptions& options) {
-  return is_mesh_path(path) && !is_list(path) ? describe_mesh(path, options) : describe_raster(path, options);
+  const std::string extension = extension_of(path);
+  if (is_list(path)) return describe_raster(path, options);
+  if (extension == ".tspm") return describe_progressive(path);
+  if (extension == ".stl") return describe_any_surface(path);
+  if (!is_mesh_path(path)) return describe_raster(path, options);
+  if (extension == ".2dm") return describe_mesh(path, options);
+  try {
+    return describe_mesh(path, options);
+  } catch (const InputError&) {
+    return describe_any_surface(path);
+  }
 }
 
 }  // namespace tinsmith

@@ -85,7 +85,7 @@ GridFrame frame_of(const Tin& tin, const std::string& path, const InputOptions& 
   frame.radians_per_unit = units.radians_per_unit;
   frame.equatorial_radius = units.equatorial_radius;
   frame.flattening = units.flattening;
-  frame.metres_per_vertical_unit = metres_per_height(units, options);
+  frame.metres_per_vertical_unit = metres_per_height(tin, units, options);
   return frame;
 }
 

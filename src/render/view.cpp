@@ -35,8 +35,9 @@ Extent grown(const Extent& e, const std::array<double, 2>& p) {
   return {std::min(e[0], p[0]), std::min(e[1], p[1]), std::max(e[2], p[0]), std::max(e[3], p[1])};
 }
 
-double metres_per_height(const CrsUnits& units, const InputOptions& options) {
+double metres_per_height(const Tin& tin, const CrsUnits& units, const InputOptions& options) {
   if (options.vertical_unit) return *options.vertical_unit;
+  if (tin.metres_per_height) return *tin.metres_per_height;
   return units.metres_per_height.value_or(units.is_geographic ? 1 : units.metres_per_horizontal_unit);
 }
 

@@ -8,6 +8,7 @@
 #include "geodesy/grid_frame.hpp"
 #include "samples/height_grid.hpp"
 #include "tinsmith/options.hpp"
+#include "tinsmith/tin.hpp"
 
 namespace tinsmith {
 
@@ -39,9 +40,9 @@ struct View {
   std::array<double, 2> to_pixel(double x, double y) const;
 };
 
-/// Metres per unit of a mesh's heights: as the options say, else its CRS; a CRS that is silent about heights
-/// counts them like its horizontal lengths.
-double metres_per_height(const CrsUnits& units, const InputOptions& options);
+/// Metres per unit of a mesh's heights: as the options say, else its file, else its CRS; a CRS that is silent about
+/// heights counts them like its horizontal lengths.
+double metres_per_height(const Tin& tin, const CrsUnits& units, const InputOptions& options);
 
 /// The outline of all cells of a grid of width x height samples.
 Extent grid_extent(const GridFrame& frame, std::int32_t width, std::int32_t height);

@@ -7,6 +7,8 @@
 
 #include "scratch.hpp"
 #include "tinsmith/error.hpp"
+#include "tinsmith/progressive.hpp"
+#include "tinsmith/surface.hpp"
 
 namespace tinsmith {
 namespace {
@@ -64,6 +66,77 @@ TEST(Describe, CountsTheComponents) {
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
   write_mesh(scratch.path("two.ply"), mesh, test::frame_of(plane));
   EXPECT_EQ(entry(scratch.path("two.ply"), "components"), "2");
+}
+
+TEST(Describe, SaysHeightsInMetresWhateverTheirUnitAndThatOfTheCrs) {
+  const Scratch scratch;
+  const RasterRecipe plane{9, 5, [](int x, int y) { return 100.0 + x + y; }};
+  GridFrame frame = test::frame_of(plane);
+  frame.crs_wkt = R"(LOCAL_CS["of feet",UNIT["US survey foot",0.3048006096012192]])";
+  frame.metres_per_horizontal_unit = 0.3048006096012192;
+  for (const double metres : {1.0, 0.5}) {
+    frame.metres_per_vertical_unit = metres;
+    for (const char* extension : {".ply", ".obj", ".glb", ".2dm"}) {
+      const std::string path = scratch.path((metres == 1 ? "metres" : "halves") + std::string(extension));
+      write_mesh(path, test::thinned_grid(plane, 4), frame);
+      EXPECT_EQ(entry(path, "heights"), metres == 1 ? "100 to 112 m" : "100 to 112 units of 0.5 m: 50 to 56 m")
+          << extension;
+    }
+  }
+}
+
+TEST(Describe, ClaimsNoUnitThatAFileDoesNotSay) {
+  const Scratch scratch;
+  const std::string path = scratch.path("other.obj");
+  std::ofstream(path) << "v 0 0 1\nv 1 0 2\nv 0 1 3\nf 1 2 3\n";
+  EXPECT_TRUE(entry(path, "heights").starts_with("1 to 3, in a unit that the file does not say"));
+  InputOptions feet;
+  feet.vertical_unit = 0.5;
+  const auto entries = describe(path, feet);
+  EXPECT_EQ(entries.back().second, "1 to 3 units of 0.5 m: 0.5 to 1.5 m");
+}
+
+TEST(Describe, SaysWhatIsInEverySurfaceThatSimplifyReadsOrWrites) {
+  const Scratch scratch;
+  Surface surface;
+  surface.position = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}};
+  surface.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const auto expect_described = [&](const std::string& path) {
+    EXPECT_EQ(entry(path, "vertices"), "4") << path;
+    EXPECT_EQ(entry(path, "triangles"), "4") << path;
+  };
+  for (const char* name : {"s.ply", "s.obj", "s.stl", "s.glb"}) {
+    write_surface(scratch.path(name), surface);
+    expect_described(scratch.path(name));
+  }
+  EXPECT_EQ(entry(scratch.path("s.stl"), "format"), "surface, .stl");
+  EXPECT_EQ(entry(scratch.path("s.stl"), "z"), "0 to 4");
+  SimplifySurfaceReport report;
+  write_progressive(scratch.path("s.tspm"), make_progressive(surface, {}, report));
+  expect_described(scratch.path("s.tspm"));
+  std::ofstream(scratch.path("ascii.ply")) << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                                              "property float y\nproperty float z\nproperty float heat\n"
+                                              "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+                                              "0 0 0 1\n2 0 0 1\n0 3 0 1\n0 0 4 1\n"
+                                              "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  expect_described(scratch.path("ascii.ply"));
+  EXPECT_EQ(entry(scratch.path("ascii.ply"), "values"), "heat");
+}
+
+TEST(Describe, RefusesDamageInItsOwnWords) {
+  const Scratch scratch;
+  const std::string json = "{}  ";
+  std::string glb = "glTF";
+  for (const std::uint32_t word : {2U, 12U + 8U + 4U, 4U, 0x4E4F534AU})
+    glb.append(reinterpret_cast<const char*>(&word), sizeof word);
+  std::ofstream(scratch.path("bad.glb"), std::ios::binary) << glb << json;
+  try {
+    describe(scratch.path("bad.glb"));
+    ADD_FAILURE() << "nothing thrown";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("exception"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("bad.glb"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Describe, RefusesWhatIsNeither) {

@@ -21,7 +21,8 @@ usage: tinsmith info FILE [options]
 
 Of a raster: format, size, type, nodata, CRS, steps in CRS units and metres, extent, the lowest and highest valid
 sample, and how many are valid (all of it is read, block by block). Of a mesh (.ply .obj .glb .2dm): vertices,
-triangles, components, CRS, extent and heights.
+triangles, components, CRS, extent and heights. Of any other surface that simplify reads (.ply .obj .glb .stl .tspm):
+vertices, triangles, values at the vertices, and ranges of x, y and z.
 
 options:
 )" TINSMITH_INPUT_MANUAL
