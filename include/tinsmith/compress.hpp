@@ -21,6 +21,7 @@ struct CompressReport {
   std::uint64_t triangles = 0;
   std::uint64_t full_triangles = 0;            // of the full grid: two for each valid 2 x 2 block
   std::uint64_t windows = 0;                   // of round 0
+  int threads = 0;                             // windows at a time; 0 for heights in memory
   std::uint64_t start_triangles = 0;           // after select and triangulate
   std::vector<std::uint64_t> round_triangles;  // after each round
   std::vector<double> round_seconds;           // spent in the tasks of the round, all threads added up

@@ -195,16 +195,16 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
   options.progress = never_falling(asked.progress);
   require_sensible(options);
   require_mesh_extension(output);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(thread_count(options)));
   if (!options.color.empty()) require_format_holds_colour(output, 1);
   const RasterField field(inputs, input_options);
   require_place_for_crs(output, field.frame().crs_wkt);
   std::optional<ColourRaster> colours;
   if (!options.color.empty()) colours.emplace(options.color, field.frame(), field.width(), field.height());
   if (colours) require_format_holds_colour(output, colours->n_channels());
-  const MemoryPlan memory = plan_memory(
-      field, {options.window, thread_count(options), options.memory, colours ? colours->n_channels() : 0});
+  const MemoryPlan memory =
+      plan_memory(field, {options.window, options.threads, options.memory, colours ? colours->n_channels() : 0});
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(memory.threads));
   set_raster_cache(memory.raster_cache);
   const Target target{field, field.frame(), output, memory.chunks, colours ? &*colours : nullptr};
   RunFolder folder(output, options.tmp, identity_of(inputs, input_options, options, target), options.fresh);
@@ -216,6 +216,7 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
     compress_and_write(target, options, folder, report);
     for (std::string& remark : field.remarks()) report.remarks.push_back(std::move(remark));
     report.unreadable_inputs = field.n_unreadable();
+    report.threads = memory.threads;
     return_free_memory();  // what windows and chunks took is not what the judge asks for
     if (when_written) when_written(report);
   } catch (const UnreadableError&) {

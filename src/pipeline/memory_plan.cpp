@@ -1,6 +1,7 @@
 #include "pipeline/memory_plan.hpp"
 
 #include <fmt/format.h>
+#include <tbb/info.h>
 
 #include <algorithm>
 
@@ -23,28 +24,36 @@ std::uint64_t bytes_per_sample(int n_channels) {
   return kBytesPerSample + (n_channels > 0 ? 100 + 20 * static_cast<std::uint64_t>(n_channels) : 0);
 }
 
-std::string in_megabytes(std::uint64_t bytes) { return fmt::format("{}M", (bytes + kMega - 1) / kMega); }
+std::string in_megabytes(std::uint64_t bytes) {
+  return bytes < kMega ? fmt::format("{} bytes", bytes) : fmt::format("{}M", (bytes + kMega - 1) / kMega);
+}
 
 }  // namespace
 
 MemoryPlan plan_memory(const RasterField& field, const MemoryNeeds& needs) {
-  const auto [window, threads, memory, n_channels] = needs;
+  const auto [window, asked, memory, n_channels] = needs;
   MemoryPlan plan;
   plan.total = memory > 0 ? memory : machine_memory() / 4;
   plan.own = kOwn;
   const std::uint64_t side = static_cast<std::uint64_t>(window) + 3;
   const std::uint64_t samples = std::min(side, static_cast<std::uint64_t>(field.width())) *
                                 std::min(side, static_cast<std::uint64_t>(field.height()));
-  plan.windows = static_cast<std::uint64_t>(threads) * samples * bytes_per_sample(n_channels);
-  const std::uint64_t least = plan.own + plan.windows + 2 * kLeast;
-  if (plan.total < least)
+  const std::uint64_t of_window = samples * bytes_per_sample(n_channels);
+  const std::uint64_t besides = plan.own + 2 * kLeast;
+  plan.threads = asked > 0 ? asked : tbb::info::default_concurrency();
+  while (asked == 0 && plan.threads > 1 &&
+         besides + static_cast<std::uint64_t>(plan.threads) * of_window > plan.total)
+    --plan.threads;
+  plan.windows = static_cast<std::uint64_t>(plan.threads) * of_window;
+  if (plan.total < besides + plan.windows)
     throw ResourceError(fmt::format(
-        "{} of memory are too little for {} windows of {} x {} samples at a time, which need {}; give more "
-        "with --memory, or fewer --threads, or a smaller --window",
-        in_megabytes(plan.total), threads, window, window, in_megabytes(least)));
+        "{} of memory are too little for {} window{} of {} x {} samples at a time, which need {}; give more "
+        "with --memory, or {}a smaller --window",
+        in_megabytes(plan.total), plan.threads, plan.threads == 1 ? "" : "s", window, window,
+        in_megabytes(besides + plan.windows), plan.threads == 1 ? "" : "fewer --threads, or "));
   const std::uint64_t rest = plan.total - plan.own - plan.windows;
   // Later rounds read a row of windows anew, one and a half rows after the first.
-  plan.raster_cache = std::clamp(3 * field.cache_for_row(window, threads), kLeast, rest / 2);
+  plan.raster_cache = std::clamp(3 * field.cache_for_row(window, plan.threads), kLeast, rest / 2);
   plan.chunks = std::min(rest - plan.raster_cache, rest / 2);
   return plan;
 }

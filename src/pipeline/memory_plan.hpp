@@ -10,6 +10,7 @@ namespace tinsmith {
 /// All in bytes.
 struct MemoryPlan {
   std::uint64_t total = 0;
+  int threads = 1;                 // windows at a time: as many as were asked for, or as the memory holds
   std::uint64_t own = 0;           // the program with its libraries
   std::uint64_t windows = 0;       // samples and meshes of the windows at work
   std::uint64_t raster_cache = 0;  // GDAL's, for decoded blocks
@@ -18,7 +19,7 @@ struct MemoryPlan {
 
 struct MemoryNeeds {
   std::int32_t window = 0;   // samples along its side
-  int threads = 1;           // windows at a time
+  int threads = 0;           // windows at a time; 0: as many as there are processors, or fewer if that takes it
   std::uint64_t memory = 0;  // bytes in all; 0: a quarter of the machine's
   int n_channels = 0;        // of colour
 };

@@ -161,7 +161,7 @@ CompressPlan plan_of(const Outset& outset, const MemoryPlan& memory) {
   for (const std::int64_t w : outset.windows)
     plan.samples += static_cast<std::uint64_t>(outset.graph.samples({0, w}).area());
   plan.rounds = outset.graph.n_rounds();
-  plan.threads = thread_count(outset.options);
+  plan.threads = memory.threads;
   plan.memory = memory.total;
   plan.memory_program = memory.own;
   plan.memory_windows = memory.windows;
@@ -211,7 +211,7 @@ CompressPlan plan(const std::vector<std::string>& inputs, const std::string& out
   const Outset outset = outset_of(field, options, colours ? &*colours : nullptr);
   const int channels = n_channels(outset.colours);
   require_format_holds_colour(output, channels);
-  const MemoryPlan memory = plan_memory(field, {options.window, thread_count(options), options.memory, channels});
+  const MemoryPlan memory = plan_memory(field, {options.window, options.threads, options.memory, channels});
   set_raster_cache(memory.raster_cache);
   CompressPlan plan = estimate(outset, memory, output);
   plan.doubts = require_room(plan, 0);

@@ -37,6 +37,8 @@ TEST_F(Program, CompressReportsEveryKeyAsJson) {
                           "area_plan", "components", "bytes",     "seconds",  "peak_memory_bytes",  "threads",
                           "windows",   "tolerance"})
     EXPECT_TRUE(report.at(key).is_number()) << key;
+  for (const char* key : {"max_error_column", "max_error_row"})
+    EXPECT_TRUE(report.at(key).is_number_integer()) << key;
   EXPECT_EQ(report["samples"], 6400);
   EXPECT_EQ(report["covered"], 6400);
   EXPECT_EQ(report["tolerance"], 2);
@@ -101,6 +103,18 @@ TEST_F(Program, SaysOnceThatMetresAreAssumedWithoutACrs) {
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_NE(outcome.err.find("metres"), std::string::npos);
   EXPECT_EQ(run({"compress", dem, path("out.ply"), "--max-error", "5", "--quiet"}).err, "");
+}
+
+TEST_F(Program, CompressUsesFewerThreadsWhereTheMemoryHoldsFewerWindows) {
+  const std::string dem = hill("dem.tif", 300);
+  const std::vector<std::string> words{"compress", dem, path("out.ply"), "--max-error", "5", "--memory", "130M",
+                                       "--json",   "-"};
+  const Outcome one = run(words);
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(json::parse(one.out)["threads"], 1);
+  std::vector<std::string> two = words;
+  two.insert(two.end(), {"--threads", "2"});
+  expect_complaint(two, 5, {"130M", "2 windows", "fewer --threads"});
 }
 
 TEST_F(Program, VerifyHoldsForAGoodMeshAndNotForATighterTolerance) {

@@ -105,7 +105,8 @@ TEST_F(CliProgress, ThePlanSaysWhatTheRunThenTakes) {
 TEST_F(CliProgress, ThePlanRefusesWhatCannotFit) {
   const std::string dem = hill("dem.tif", 300);
   expect_complaint({"compress", dem, path("dem.ply"), "--max-error", "1", "--plan", "--memory", "64M"}, 5,
-                   {"64M", "--memory"});
+                   {"64M", "for 1 window of", "--memory"});
+  expect_complaint({"compress", dem, path("dem.ply"), "--max-error", "1", "--memory", "3"}, 5, {"3 bytes"});
 }
 
 // A quarter of a billion samples of noise, none of which can be left out: known from a few windows.

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "choose.hpp"
 #include "compress_summary.hpp"
@@ -55,7 +54,8 @@ options:
   --effort E           fast, default or best: how much refinement follows the first pass, for fewer triangles; best
                        takes about 2.5 times as long as fast
   --window T           samples along a window's side (default {}); may change the result a little
-  --threads N          0: as many as the machine has (default 0); never changes the result
+  --threads N          0: as many as the machine has, if the memory holds so many windows (default 0); never changes
+                       the result
   --memory SIZE        what the whole program may take, as 512M, 1.5G or bytes (default: a quarter of the machine's);
                        finished windows beyond it are on the disk only; never changes the result
   --tmp DIR            folder for unfinished work (default: a hidden folder beside OUTPUT, removed at the end)
@@ -163,10 +163,6 @@ void require_usable_outputs(const Flags& flags, const std::string& output) {
   if (!json.empty() && json != "-") require_writable(json);
 }
 
-int threads_used(int asked) {
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 void add_compression(Json& report, const CompressReport& compressed, const std::string& output) {
   report["samples"] = compressed.samples;
   report["vertices"] = compressed.vertices;
@@ -246,7 +242,7 @@ int compress_rasters(Flags flags) {
   options.progress = {};  // ends the line of the bar
   print_remarks(without(compressed.remarks, inputs.remarks), flags.quiet);
   Json report = empty_report(flags.files, output);
-  report["threads"] = threads_used(flags.threads);
+  report["threads"] = compressed.threads;
   report["seconds"] = seconds;
   add_compression(report, compressed, output);
   add_remarks(report, inputs.remarks);
