@@ -135,6 +135,7 @@ double full_scale(double largest) {
 
 double levels_per_value(GDALDataset& source, const ColourSource& colours, const std::string& path) {
   double largest = 0;
+  const QuietGdal quiet;  // of bands without a value
   bool is_byte = true;
   for (const int b : colours.bands) {
     GDALRasterBand& band = *source.GetRasterBand(b);

@@ -31,6 +31,24 @@ std::string resolve(const std::string& path) {
   return error ? path : target.string();
 }
 
+const char* advice(int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+      return "make the folder first or choose another";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose a folder that you may write";
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "make room or choose another folder";
+    default:
+      return "choose another folder";
+  }
+}
+
 constexpr std::string_view kSuffix = ".tmp";
 
 /// What the names of the target's temporary files begin with, without the folder; then come process, number and
@@ -123,8 +141,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::fail(int error) const {
-  throw OutputError(
-      fmt::format("{}: can't be written: {}; make room or choose another folder", path_, reason(error)));
+  throw OutputError(fmt::format("{}: can't be written: {}; {}", path_, reason(error), advice(error)));
 }
 
 void OutputFile::flush() {

@@ -140,7 +140,8 @@ TEST_F(BadOutput, IsAnotherOutputOrAListOfInputs) {
 
 TEST_F(BadOutput, FolderThatCantBeWritten) {
   const std::string dem = write("dem.tif", {});
-  expect_complaint({"compress", dem, path("none/out.ply"), "--max-error", "1"}, 4, {"none/out.ply"});
+  expect_complaint({"compress", dem, path("none/out.ply"), "--max-error", "1"}, 4,
+                   {"none/out.ply", "make the folder"});
   expect_complaint({"compress", dem, "/proc/out.ply", "--max-error", "1"}, 4, {"/proc/out.ply"});
   expect_complaint({"compress", dem, path("dem.tif/out.ply"), "--max-error", "1"}, 4, {"out.ply"});
   expect_complaint({"compress", dem, path("out.ply"), "--max-error", "1", "--json", path("none/r.json")}, 4,

@@ -60,6 +60,15 @@ TEST_F(CliColour, SaysWhatIsWrongWithTheColours) {
   EXPECT_EQ(files(), (std::vector<std::string>{"dem.tif", "ortho.tif"}));
 }
 
+TEST_F(CliColour, WithoutAValueAreWhiteWithoutAWordOfTheLibrary) {
+  RasterRecipe empty{.type = GDT_Float32, .values = std::vector<double>(6, -1)};
+  empty.declare = [](GDALDataset& dataset) { dataset.GetRasterBand(1)->SetNoDataValue(-1); };
+  const Outcome outcome = run(
+      {"compress", hill("dem.tif", 40), path("dem.ply"), "--max-error", "1", "--color", write("void.tif", empty)});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+}
+
 TEST_F(CliColour, TellsThatACrsIsMissing) {
   const std::string dem = hill("dem.tif", 40);
   const Outcome made = run({"compress", dem, path("dem.ply"), "--max-error", "1", "--color", ortho(3, "")});

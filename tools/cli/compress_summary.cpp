@@ -43,8 +43,10 @@ void print_cost(const Json& report) {
                                 : "";
   line("file", fmt::format("{}, {} bytes", report["output"].get<std::string>(), count(report, "bytes")));
   line("time", duration(report["seconds"]) + check);
-  line("windows", fmt::format("{} on {} threads, peak memory {}", count(report, "windows"),
-                              count(report, "threads"), byte_size(report["peak_memory_bytes"])));
+  const bool is_one = report["threads"] == 1;
+  line(report["windows"] == 1 ? "window" : "windows",
+       fmt::format("{} on {} thread{}, peak memory {}", count(report, "windows"), count(report, "threads"),
+                   is_one ? "" : "s", byte_size(report["peak_memory_bytes"])));
 }
 
 void print_rounds(const Json& report) {

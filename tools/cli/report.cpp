@@ -35,6 +35,8 @@ const std::map<std::string, const char*>& units() {
                                                                {"color_rmse", "levels of 255"},
                                                                {"color_max_error", "levels of 255"},
                                                                {"seconds", "s"},
+                                                               {"simplify_seconds", "s"},
+                                                               {"verify_seconds", "s"},
                                                                {"bytes", "bytes"},
                                                                {"peak_memory_bytes", "bytes"},
                                                                {"max_error_column", "samples"},
@@ -99,8 +101,8 @@ void add_certificate(Json& report, const Certificate& c, std::optional<double> t
   report["overlapped"] = c.overlapped;
   report["non_manifold_vertices"] = c.non_manifold_vertices;
   report["area_valid"] = c.area_valid;
-  report["max_error_column"] = c.max_error_column;
-  report["max_error_row"] = c.max_error_row;
+  report["max_error_column"] = static_cast<std::int64_t>(c.max_error_column);
+  report["max_error_row"] = static_cast<std::int64_t>(c.max_error_row);
   report["rounding"] = c.rounding;
   if (c.color_samples > 0) {
     report["color_samples"] = c.color_samples;
@@ -154,7 +156,7 @@ int verdict(const Json& report, const std::string& mesh) {
   if (report["holds"]) return 0;
   std::string promises;
   for (const auto& sentence : report["broken"])
-    promises += (promises.empty() ? "" : "; ") + sentence.get<std::string>();
+    promises += (promises.empty() ? "" : " ") + sentence.get<std::string>();
   std::fprintf(stderr, "tinsmith: %s: does not hold: %s\n", mesh.c_str(), in_one_line(promises).c_str());
   return kDoesNotHold;
 }
