@@ -17,9 +17,12 @@ std::string in_folder(std::uint64_t bytes, const std::string& folder, std::uint6
 }
 
 std::string division(const CompressPlan& plan) {
-  return fmt::format("{}: {} program, {} windows at work, {} raster cache, {} finished windows",
+  const std::uint64_t divided =
+      plan.memory_program + plan.memory_windows + plan.memory_raster_cache + plan.memory_chunks;
+  return fmt::format("{}: {} program, {} windows at work, {} raster cache, {} finished windows, {} to spare",
                      byte_size(plan.memory), byte_size(plan.memory_program), byte_size(plan.memory_windows),
-                     byte_size(plan.memory_raster_cache), byte_size(plan.memory_chunks));
+                     byte_size(plan.memory_raster_cache), byte_size(plan.memory_chunks),
+                     byte_size(plan.memory > divided ? plan.memory - divided : 0));
 }
 
 // Three digits: more are not known.
