@@ -58,10 +58,10 @@ Scene scene_with_an_error() {
 }
 
 TEST(Verify, MeasuresTheSameInEveryFormatAndFrame) {
-  const ScratchFolder folder;
   const Scene scene = scene_with_an_error();
-  const std::string raster = folder.file("dem.tif");
   for (const GridFrame& frame : frames()) {
+    const ScratchFolder folder;  // its own, for the .prj
+    const std::string raster = folder.file("dem.tif");
     write_raster(raster, scene, frame);
     for (const std::string extension : {".ply", ".obj", ".glb", ".2dm"}) {
       const std::string path = folder.file("mesh" + extension);
