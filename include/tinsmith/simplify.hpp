@@ -20,7 +20,9 @@ namespace tinsmith {
 /// (0.76 and 0.92 times that of geometry alone, against 0.88 and 0.97) at 1.17 and 1.72 times its distance.
 enum class QuadricForm {
   kSeparate,  // one each, in three dimensions: 20 coefficients with one attribute (the paper, eq. 25-28)
-  kCombined,  // one in six dimensions: 28 coefficients (Garland and Heckbert 1998)
+  // One in six dimensions: 28 coefficients (Garland and Heckbert 1998). The first colour or normal has weight,
+  // other attributes follow.
+  kCombined,
   kGradient,  // attributes as linear functions of the place: 23 coefficients (Hoppe 1999)
 };
 

@@ -62,7 +62,7 @@ class AttributeQuadrics {
 };
 
 /// The paper's, eq. 25-28: of each attribute the plane, line or point that a triangle's values span in its own
-/// three dimensions. Scalars cost nothing.
+/// three dimensions; of a scalar the point, where it does not vary.
 std::unique_ptr<AttributeQuadrics> separate_quadrics(const SurfaceMesh& mesh, const WedgeValues& all,
                                                      const SimplifySurfaceOptions& options);
 

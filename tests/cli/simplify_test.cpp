@@ -286,12 +286,25 @@ TEST_F(Simplify, DropsAttributesWhenAskedOrWhenTheFormatHasNone) {
   EXPECT_EQ(run({"simplify", mesh, path("out.stl"), "--ratio", "0.5", "--quiet"}).err, "");
 }
 
+/// One triangle with a scalar.
+std::string hot_text() {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+         "property float heat\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+         "0 0 0 7\n1 0 0 8\n0 1 0 9\n3 0 1 2\n";
+}
+
+TEST_F(Simplify, SaysWhichValuesHaveNoWeight) {
+  const std::string hot = write_text("hot.ply", hot_text());
+  const Outcome outcome = run({"simplify", hot, path("out.ply"), "--quadric", "combined"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("--quadric combined: none of the 1 "), std::string::npos) << outcome.err;
+  for (const char* quadric : {"separate", "gradient"})
+    EXPECT_EQ(run({"simplify", hot, path("out.ply"), "--quadric", quadric}).err, "");
+  EXPECT_EQ(run({"simplify", sheet(4), path("out.ply"), "--quadric", "combined"}).err, "") << "one colour";
+}
+
 TEST_F(Simplify, SaysWhichValuesTheFormatLeavesOut) {
-  const std::string mesh =
-      write_text("hot.ply",
-                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                 "property float heat\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                 "0 0 0 7\n1 0 0 8\n0 1 0 9\n3 0 1 2\n");
+  const std::string mesh = write_text("hot.ply", hot_text());
   EXPECT_EQ(run({"simplify", mesh, path("out.ply")}).err, "");
   for (const char* extension : {".obj", ".glb", ".stl"}) {
     const std::string output = path(std::string("out") + extension);

@@ -167,9 +167,9 @@ TEST(SimplifySurface, IsNotDisturbedByAConstantColour) {
   for (const float x : coloured.attributes[0].values) EXPECT_FLOAT_EQ(x, 0.25F);
 }
 
-// Root mean squared difference of the colours, from points of the reference to the nearest of the surface.
-double colour_error(const Surface& s, const Surface& reference) {
-  const auto colour_at = [](const Surface& surface, const TriangleTree::Nearest& there) {
+// Root mean squared difference of the first attribute, from points of the reference to the nearest of the surface.
+double value_error(const Surface& s, const Surface& reference) {
+  const auto value_at = [](const Surface& surface, const TriangleTree::Nearest& there) {
     const auto& [a, b, c] = surface.triangles[there.triangle];
     const Point3 n = doubled_area_normal(surface, surface.triangles[there.triangle]);
     const auto share = [&](std::uint32_t v, std::uint32_t w) {
@@ -177,18 +177,20 @@ double colour_error(const Surface& s, const Surface& reference) {
              dot(n, n);
     };
     const std::array<double, 3> weight{share(b, c), share(c, a), share(a, b)};
-    const std::vector<float>& values = surface.find(AttributeKind::kColour)->values;
-    Point3 colour{};
-    for (std::size_t k = 0; k < 3; ++k)
-      colour[k] = weight[0] * values[3 * a + k] + weight[1] * values[3 * b + k] + weight[2] * values[3 * c + k];
-    return colour;
+    const std::vector<float>& values = surface.attributes[0].values;
+    const auto n_components = static_cast<std::size_t>(surface.attributes[0].components());
+    Point3 value{};
+    for (std::size_t k = 0; k < n_components; ++k)
+      value[k] = weight[0] * values[n_components * a + k] + weight[1] * values[n_components * b + k] +
+                 weight[2] * values[n_components * c + k];
+    return value;
   };
   const TriangleTree tree(s);
   const TriangleTree reference_tree(reference);
   double sum = 0;
   const std::vector<Point3> points = sample_points(reference, 10'000);
   for (const Point3& p : points) {
-    const Point3 off = minus(colour_at(s, tree.nearest(p)), colour_at(reference, reference_tree.nearest(p)));
+    const Point3 off = minus(value_at(s, tree.nearest(p)), value_at(reference, reference_tree.nearest(p)));
     sum += dot(off, off);
   }
   return std::sqrt(sum / static_cast<double>(points.size()));
@@ -208,8 +210,27 @@ TEST(SimplifySurface, KeepsColoursBetterThanGeometryAlone) {
     options.attribute_weight = 0;  // the values follow the place, nothing more
     options.quadric = QuadricForm::kSeparate;
     const Surface geometry_only = simplified(surface, options, ratio).surface;
-    EXPECT_LE(colour_error(with_colour, surface), colour * colour_error(geometry_only, surface));
+    EXPECT_LE(value_error(with_colour, surface), colour * value_error(geometry_only, surface));
     EXPECT_LE(distance(with_colour, surface, 10'000).rms(), 1.1 * distance(geometry_only, surface, 10'000).rms());
+  }
+}
+
+// The quadric alone, without the fit: of a step in a scalar, beside a colour that says nothing.
+TEST(SimplifySurface, SeparateQuadricsWeighScalars) {
+  Surface surface = scan(40);
+  SurfaceAttribute step{AttributeKind::kScalar, "step", {}};
+  for (const Point3& p : surface.position) step.values.push_back(p[0] + 0.3 * p[1] > 0.2 ? 9 : 1);
+  surface.attributes.push_back(step);
+  surface.attributes.push_back({AttributeKind::kColour, "", std::vector<float>(3 * surface.position.size(), 0.5F)});
+  for (const double ratio : {0.3, 0.1}) {
+    SimplifySurfaceOptions options;
+    options.quadric = QuadricForm::kSeparate;
+    options.fit = false;
+    const Surface with_weight = simplified(surface, options, ratio).surface;
+    options.attribute_weight = 0;
+    const Surface without = simplified(surface, options, ratio).surface;
+    EXPECT_LE(value_error(with_weight, surface), 0.85 * value_error(without, surface));
+    EXPECT_LE(distance(with_weight, surface, 10'000).rms(), 1.05 * distance(without, surface, 10'000).rms());
   }
 }
 

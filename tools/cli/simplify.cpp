@@ -52,8 +52,9 @@ options:
   --no-fit               leave out the last step of optimal placement, which moves the vertices that are left, and
                          their values, to where they fit the input's vertices best
   --quadric Q            how shape and values at the vertices make up the cost: separate (a quadric each, as in the
-                         paper), combined (one in all dimensions) or gradient (values as linear functions of the
-                         place) (default {})
+                         paper), combined (one in six dimensions: the shape and the colour, or the normals of a mesh
+                         without; other values follow and cost nothing) or gradient (values as linear functions of
+                         the place) (default {})
   --attribute-weight A   how much the values at the vertices count beside the shape, whose largest extent is 1; 0: they
                          follow (default: 1 for separate, 3e-7 for the others)
   --crease D             edges whose triangles meet at more than D degrees are features; 0 to 180 (default: none)
@@ -193,6 +194,17 @@ std::vector<std::string> remarks_on(const Surface& surface, const std::string& o
   return {};
 }
 
+/// Combined quadrics weigh the first colour or normal only.
+std::vector<std::string> remarks_on_weights(const Surface& surface, const SimplifySurfaceOptions& options) {
+  const auto is_wide = [](const SurfaceAttribute& attribute) { return attribute.kind != AttributeKind::kScalar; };
+  const bool has_wide = std::any_of(surface.attributes.begin(), surface.attributes.end(), is_wide);
+  if (options.quadric != QuadricForm::kCombined || surface.attributes.size() <= (has_wide ? 1U : 0U)) return {};
+  return {
+      fmt::format("--quadric combined: {} of the {} kinds of values at the vertices counts, the others follow; "
+                  "--quadric gradient and separate weigh all",
+                  has_wide ? "one" : "none", surface.attributes.size())};
+}
+
 Json report_of(const Flags& flags, const SimplifySurfaceReport& simplified, const Surface& result) {
   Json report;
   report["input"] = flags.mesh;
@@ -252,6 +264,7 @@ int simplify_mesh(const Flags& flags) {
     options.feature_edges = read_edge_list(flags.feature_edges, surface.position.size());
   if (flags.drop_attributes) surface.attributes.clear();
   print_remarks(remarks_on(surface, flags.output), flags.quiet);
+  print_remarks(remarks_on_weights(surface, options), flags.quiet);
   options.progress = make_progress(choose_progress("bar", flags.quiet), 0);
   SimplifySurfaceReport simplified;
   const double start = resources_so_far().seconds;
