@@ -108,18 +108,22 @@ TEST(SimplifySurface, HoldsTheLargestCost) {
   EXPECT_LT(simplify_surface(surface, options, report).triangles.size(), result.triangles.size());
 }
 
-TEST(SimplifySurface, HalfSpaceTestPreventsTurnedTriangles) {
-  std::size_t with = 0;
-  std::size_t without = 0;
+TEST(SimplifySurface, HalfSpaceTestPreventsTurnedTrianglesAndSelfIntersections) {
+  std::size_t n_turned_with = 0;
+  std::size_t n_turned_without = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Surface surface = scan(40, seed);
     SimplifySurfaceOptions options;
-    with += normal_turn(simplified(surface, options, 0.3).surface, surface).n_flipped;
+    const Surface with = simplified(surface, options, 0.3).surface;
     options.half_space = false;
-    without += normal_turn(simplified(surface, options, 0.3).surface, surface).n_flipped;
+    const Surface without = simplified(surface, options, 0.3).surface;
+    n_turned_with += normal_turn(with, surface).n_flipped;
+    n_turned_without += normal_turn(without, surface).n_flipped;
+    EXPECT_EQ(count_self_intersections(with), 0U) << seed;
+    EXPECT_GT(count_self_intersections(without), 0U) << seed;
   }
-  EXPECT_EQ(with, 0U);
-  EXPECT_GT(without, 3 * with + 3);
+  EXPECT_EQ(n_turned_with, 0U);
+  EXPECT_GT(n_turned_without, 3U);
 }
 
 TEST(SimplifySurface, SubsetPlacementKeepsVerticesWithTheirAttributes) {
