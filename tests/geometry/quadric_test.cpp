@@ -88,6 +88,23 @@ TEST(Quadric, OfThreeEqualValuesIsThatOfAPoint) {
   EXPECT_NEAR(quadric.at({0.2, 0.4, 1.8}), 1, 1e-12);  // eq. 28
 }
 
+// Eq. 28 too: from a line the distance counts, along it nothing does.
+TEST(Quadric, OfThreeValuesOnALineIsThatOfTheLine) {
+  const Vec<3> first{0.2, 0.4, 0.8};
+  const Vec<3> last{0.5, 0.8, 0.8};  // half a unit along (0.6, 0.8, 0)
+  const Vec<3> between{0.32, 0.56, 0.8};
+  for (const auto& [p, q, r] : {std::array{first, last, between}, {between, first, last}, {first, first, last}}) {
+    const auto [e1, e2] = directions_of(p, q, r, 1e-3);
+    EXPECT_EQ(e2, Vec<3>{});
+    Quadric<3> quadric;
+    quadric.add_flat(p, e1, e2, 2);
+    for (const Vec<3>& on_it : {first, last, between, Vec<3>{-2.8, -3.6, 0.8}})
+      EXPECT_NEAR(quadric.at(on_it), 0, 1e-12);
+    EXPECT_NEAR(quadric.at({0.5, 0.8, 1.1}), 2 * 0.09, 1e-12);
+    EXPECT_NEAR(quadric.at({0.5 - 0.8, 0.8 + 0.6, 0.8}), 2, 1e-12);
+  }
+}
+
 // A square link in the plane z = 0.
 std::vector<LinkSide> square() {
   const std::array<Vec<3>, 4> p{Vec<3>{1, 1, 0}, Vec<3>{-1, 1, 0}, Vec<3>{-1, -1, 0}, Vec<3>{1, -1, 0}};
