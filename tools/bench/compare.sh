@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# compare.sh REV_A REV_B [PAIRS] [METRES...]: builds two commits in worktrees below the build folder and times them by
+# compare.sh REV_A REV_B [PAIRS] [METRES...]: builds two commits in folders below the build folder and times them by
 # turns on the sample terrain, with two threads and without verification. Prints for each tolerance the triangles, the
 # median seconds and the median of B : A, pair by pair.
 set -euo pipefail
@@ -17,8 +17,11 @@ build_commit() {
   commit=$(git -C "$top" rev-parse --verify --quiet "$1^{commit}") || die "$1: no such commit"
   folder=$build/compare/${commit:0:12}
   if ! [ -d "$folder/tree" ]; then
-    git -C "$top" worktree prune
-    git -C "$top" worktree add --quiet --detach "$folder/tree" "$commit"
+    # No worktree: git would go on knowing it when the folder is long gone.
+    rm -rf "$folder/tree.new"
+    mkdir -p "$folder/tree.new"
+    git -C "$top" archive "$commit" | tar -x -C "$folder/tree.new"
+    mv "$folder/tree.new" "$folder/tree"
   fi
   say "building $1 (${commit:0:12})"
   cmake -S "$folder/tree" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTINSMITH_TESTS=OFF >"$folder/log" 2>&1 &&
