@@ -32,6 +32,12 @@ check_packages='
   libclang-rt-14-dev      # sanitizers and libFuzzer of the second compiler
 '
 
+bench_build_packages='
+  libmeshoptimizer-dev    # peer: meshopt_simplify
+  libeigen3-dev           # matrices of the peer CGAL
+  libbenchmark-dev        # micro benchmarks
+'
+
 say() { printf '== %s\n' "$*" >&2; }
 die() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
 

@@ -11,13 +11,10 @@ bench_packages='
   python3                 # runs the runs
   python3-numpy           # hands samples to VTK
   python3-vtk9            # peer: greedy terrain decimation, quadric decimation
-  libmeshoptimizer-dev    # peer: meshopt_simplify
-  libeigen3-dev           # matrices of the peer CGAL
-  libbenchmark-dev        # micro benchmarks
 '
 # Not among them when they are there already: node may come from elsewhere than Debian.
 command -v node >/dev/null && command -v npm >/dev/null || bench_packages+=' nodejs npm '
-require_packages "$build_packages $bench_packages"
+require_packages "$build_packages $bench_build_packages $bench_packages"
 
 say "building into ${build#"$PWD"/}"
 mkdir -p "$build/node"

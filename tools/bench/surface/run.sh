@@ -11,11 +11,8 @@ surface_packages='
   python3-numpy           # samples surfaces
   python3-scipy           # counts their parts and borders
   python3-vtk9            # peer: quadric decimation, DecimatePro; the judge of distances
-  libmeshoptimizer-dev    # peer: meshopt_simplify
-  libeigen3-dev           # matrices of the peer CGAL
-  libbenchmark-dev        # the benchmark build asks for it
 '
-require_packages "$build_packages $surface_packages"
+require_packages "$build_packages $bench_build_packages $surface_packages"
 
 say "building into ${build#"$PWD"/}"
 mkdir -p "$build/surface/packages"
