@@ -77,14 +77,14 @@ def fraction(case, ours):
 
 
 def quality_table(cases, ours):
-    head = ["tolerance", "vertices / samples"]
+    head = ["tolerance", "vertices / samples", "bytes of PLY"]
     for name in ("tinsmith", "delatin", "martini"):
         head += [f"{name}: triangles", "max error", "RMSE"]
     rows = []
     for case in cases:
         mine = verdict(case, ours)
         share = f"{mine['vertices'] / mine['samples']:.3%}" if mine else "-"
-        cells = [f"{case['tolerance']:g} m", share]
+        cells = [f"{case['tolerance']:g} m", share, count(mine["bytes"]) if mine else "-"]
         for tool in (ours, "delatin", "martini"):
             cells += quality_cells(case, tool)
         part = fraction(case, ours)
