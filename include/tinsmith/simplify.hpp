@@ -67,6 +67,13 @@ struct SurfaceDefects {
   }
 };
 
+/// Why it went no further.
+enum class SimplifyStop {
+  kNoCandidates,  // no edge is left that can be collapsed
+  kTriangles,     // no more than asked for, by number or ratio
+  kCost,          // all that is left costs more than max_cost
+};
+
 /// What happened.
 struct SimplifySurfaceReport {
   SurfaceDefects defects;
@@ -78,6 +85,7 @@ struct SimplifySurfaceReport {
   std::uint64_t refused_topology = 0;  // link condition, corners, features that would be torn
   std::uint64_t refused_half_space = 0;
   double last_cost = 0;  // of the costliest collapse that was made
+  SimplifyStop stopped_by = SimplifyStop::kNoCandidates;
 };
 
 /// The simplified surface. Throws UsageError for options out of range, InputError for vertex numbers that don't

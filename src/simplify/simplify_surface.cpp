@@ -98,6 +98,7 @@ class SurfaceSimplifier {
       if (++n_steps % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target));
     }
     tell(1);
+    if (static_cast<double>(n_triangles_) <= target) report_.stopped_by = SimplifyStop::kTriangles;
     geometry_ = {};  // fit needs as much
     queue_ = {};
     if (report_.collapses > 0 && !samples_.vertex.empty()) fit(mesh_, values_, samples_);
@@ -251,7 +252,10 @@ class SurfaceSimplifier {
   void try_collapse(std::int32_t h, float cost) {
     const Collapse collapse = best(h);
     const double distance = mean_squared_distance(h, collapse.position);
-    if (options_.max_cost && distance > *options_.max_cost) return;
+    if (options_.max_cost && distance > *options_.max_cost) {
+      report_.stopped_by = SimplifyStop::kCost;
+      return;
+    }
     std::uint64_t* refused = refusal(h, collapse);
     if (refused != nullptr) {
       ++*refused;

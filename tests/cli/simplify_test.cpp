@@ -217,6 +217,7 @@ TEST_F(Simplify, ReportsEveryKeyAsJson) {
                           "simplify_seconds",   "peak_memory_bytes",     "bytes"})
     EXPECT_TRUE(said.at(key).is_number()) << key;
   EXPECT_TRUE(said.at("version").is_string());
+  EXPECT_TRUE(said.at("stopped_by").is_string());
   EXPECT_EQ(said["input"], path("sheet.ply"));
   EXPECT_EQ(said["output"], path("out.ply"));
   EXPECT_EQ(said["input_vertices"], 900);
@@ -241,6 +242,27 @@ TEST_F(Simplify, StopsAtTheFirstThatIsReached) {
   EXPECT_LE(cost["last_cost"].get<double>(), 1e-4);
   EXPECT_GT(cost["triangles"].get<double>(), 0.01 * n_triangles);
   EXPECT_LT(report({mesh, path("e.ply")})["triangles"], both["triangles"]) << "without a stop: as far as it goes";
+}
+
+TEST_F(Simplify, SaysWhyItStopped) {
+  const std::string mesh = sheet(20);
+  EXPECT_EQ(report({mesh, path("a.ply"), "--triangles", "300"})["stopped_by"], "triangles");
+  EXPECT_EQ(report({mesh, path("b.ply"), "--ratio", "0.01", "--max-cost", "1e-6"})["stopped_by"], "cost");
+  EXPECT_EQ(report({mesh, path("c.ply")})["stopped_by"], "no candidates");
+  // With every edge a feature only the flat ones go; so too with what a progressive mesh begins with.
+  const std::string kept = path("kept.tspm");
+  report({mesh, path("base.ply"), "--triangles", "100", "--progressive", kept});
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{mesh, path("d.ply"), "--crease", "0"}, {kept, path("e.ply")}}) {
+    std::vector<std::string> all{"simplify"};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), {"--triangles", "10"});
+    const Outcome outcome = run(all);
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find(" triangles, not the 10 asked for"), std::string::npos) << outcome.err;
+    all.push_back("--quiet");
+    EXPECT_EQ(run(all).err, "");
+  }
 }
 
 TEST_F(Simplify, WritesEveryFormat) {

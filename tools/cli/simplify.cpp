@@ -205,6 +205,21 @@ std::vector<std::string> remarks_on_weights(const Surface& surface, const Simpli
                   has_wide ? "one" : "none", surface.attributes.size())};
 }
 
+const char* word_of(SimplifyStop stop) {
+  if (stop == SimplifyStop::kNoCandidates) return "no candidates";
+  return stop == SimplifyStop::kTriangles ? "triangles" : "cost";
+}
+
+/// More triangles than asked for, as a number or as a ratio of the input's.
+std::vector<std::string> remarks_on_size(const Flags& flags, const Surface& result, double n_input,
+                                         const char* why) {
+  const auto n_triangles = static_cast<double>(result.triangles.size());
+  const double asked = std::max(flags.options.triangles.value_or(0), flags.options.ratio.value_or(0) * n_input);
+  if (asked == 0 || n_triangles <= asked) return {};
+  return {fmt::format("{}: {} triangles, not the {:.0f} asked for: {}", flags.output, result.triangles.size(),
+                      std::floor(asked), why)};
+}
+
 Json report_of(const Flags& flags, const SimplifySurfaceReport& simplified, const Surface& result) {
   Json report;
   report["input"] = flags.mesh;
@@ -239,6 +254,7 @@ int restore_mesh(const Flags& flags) {
   const Surface result = restore(read_progressive(flags.mesh, triangles), triangles);
   print_remarks(remarks_on(result, flags.output), flags.quiet);
   write_surface(flags.output, result);
+  print_remarks(remarks_on_size(flags, result, 0, "the progressive mesh begins with so many"), flags.quiet);
   const Json report = report_of(flags, {}, result);
   if (!flags.json.empty()) write_json(report, flags.json);
   if (flags.json != "-")
@@ -272,8 +288,14 @@ int simplify_mesh(const Flags& flags) {
   const double end = resources_so_far().seconds;
   options.progress = {};  // ends the line of the bar
   write_surface(flags.output, result);
+  if (simplified.stopped_by == SimplifyStop::kNoCandidates)
+    print_remarks(remarks_on_size(flags, result, static_cast<double>(simplified.input_triangles),
+                                  "no edge is left that can be collapsed; features and borders hold many: see "
+                                  "--crease, --no-seams, --feature-edges"),
+                  flags.quiet);
   Json report = report_of(flags, simplified, result);
   report["simplify_seconds"] = end - start;
+  report["stopped_by"] = word_of(simplified.stopped_by);
   if (!flags.json.empty()) write_json(report, flags.json);
   if (flags.json != "-") print_simplify_summary(report, flags.verbose);
   return 0;
