@@ -89,7 +89,8 @@ struct SimplifySurfaceReport {
 };
 
 /// The simplified surface. Throws UsageError for options out of range, InputError for vertex numbers that don't
-/// exist and numbers that are not finite, ResourceError above 2^32 / 3 triangles, and Interrupted.
+/// exist, numbers that are not finite, and triangles that all have a corner twice, ResourceError above 2^32 / 3
+/// triangles, and Interrupted.
 Surface simplify_surface(const Surface& surface, const SimplifySurfaceOptions& options,
                          SimplifySurfaceReport& report);
 

@@ -476,6 +476,8 @@ SurfaceMesh simplified_mesh(const Surface& surface, const SimplifySurfaceOptions
   report.input_vertices = surface.position.size();
   report.input_triangles = surface.triangles.size();
   SurfaceMesh mesh = surface_mesh_of(surface, report.defects);
+  if (mesh.origin.empty() && !surface.triangles.empty())
+    throw InputError("no triangle is left: each has a corner twice; look at what wrote the mesh");
   mark_features(mesh, options, report);
   values = wedge_values(mesh, surface);
   SurfaceSimplifier(mesh, values, options, report, history).run(target_of(options, surface.triangles.size()));

@@ -123,6 +123,13 @@ TEST_F(BadSurface, CutShort) {
   expect_unusable_mesh(write_text("half.ply", whole.substr(0, whole.size() / 2)), {"half.ply"});
 }
 
+TEST_F(BadSurface, TrianglesThatAreNone) {
+  const std::string points =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  expect_unusable_mesh(write_text("none.ply", points + "3 0 1 0\n3 2 2 2\n"), {"none.ply", "no triangle is left"});
+}
+
 TEST_F(BadSurface, UnknownExtension) {
   expect_unusable_mesh(write_text("mesh.off", "OFF\n"), {"mesh.off", ".ply"});
   expect_complaint({"simplify", sheet(4), path("out.2dm")}, 2, {"out.2dm", ".2dm", ".stl"});

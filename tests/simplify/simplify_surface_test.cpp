@@ -380,6 +380,14 @@ TEST(SimplifySurface, CollapsesTrianglesWithoutArea) {
   }
 }
 
+TEST(SimplifySurface, RefusesTrianglesThatAreNone) {
+  Surface surface;
+  surface.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  surface.triangles = {{0, 1, 0}, {1, 1, 2}, {2, 2, 2}};
+  SimplifySurfaceReport report;
+  EXPECT_THROW(simplify_surface(surface, {}, report), InputError);
+}
+
 TEST(SimplifySurface, OfNothingIsNothing) {
   SimplifySurfaceReport report;
   EXPECT_TRUE(simplify_surface({}, {}, report).triangles.empty());

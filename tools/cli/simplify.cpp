@@ -264,11 +264,13 @@ int restore_mesh(const Flags& flags) {
 
 // And keeps how it was done, if asked for.
 Surface simplified_surface(const Surface& surface, const SimplifySurfaceOptions& options, const Flags& flags,
-                           SimplifySurfaceReport& report) {
+                           SimplifySurfaceReport& report) try {
   if (flags.progressive.empty()) return simplify_surface(surface, options, report);
   const ProgressiveSurface progressive = make_progressive(surface, options, report);
   write_progressive(flags.progressive, progressive);
   return restore(progressive, 0);
+} catch (const InputError& error) {
+  throw InputError(fmt::format("{}: {}", flags.mesh, error.what()));
 }
 
 int simplify_mesh(const Flags& flags) {
