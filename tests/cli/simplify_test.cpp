@@ -151,6 +151,9 @@ TEST_F(BadSurface, OptionsOutOfRange) {
 
 TEST_F(BadSurface, OptionsThatContradictEachOther) {
   expect_wrong_usage({"--drop-attributes", "--attribute-weight", "2"}, {"--drop-attributes", "--attribute-weight"});
+  for (const char* placement : {"optimal", "segment"})
+    expect_wrong_usage({"--progressive", path("kept.tspm"), "--placement", placement},
+                       {"--progressive", "--placement subset"});
 }
 
 TEST_F(BadSurface, FeatureEdgesThatAreNone) {
@@ -366,7 +369,7 @@ TEST_F(Simplify, MakesTheSameBytesTwice) {
 TEST_F(Simplify, RestoresAProgressiveMesh) {
   const std::string mesh = sheet(20);
   const std::string kept = path("kept.tspm");
-  report({mesh, path("base.ply"), "--ratio", "0.1", "--progressive", kept});
+  report({mesh, path("base.ply"), "--ratio", "0.1", "--progressive", kept, "--placement", "subset"});
   EXPECT_EQ(report({kept, path("full.ply")})["triangles"], 2 * 19 * 19);
   const Surface full = read_surface(path("full.ply"));
   EXPECT_EQ(full.position, read_surface(mesh).position);

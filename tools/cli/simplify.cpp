@@ -98,7 +98,7 @@ struct Flags {
   std::string mesh;
   std::string output;
   SimplifySurfaceOptions options;  // what needs no words
-  std::string placement = "optimal";
+  std::string placement;           // empty: optimal, and subset for a progressive mesh
   std::string quadric = word_of(SimplifySurfaceOptions().quadric);
   std::optional<double> attribute_weight;
   bool no_area_weights = false;
@@ -134,13 +134,18 @@ void require_ranges(const Flags& flags) {
 void require_agreement(const Flags& flags) {
   if (flags.drop_attributes && flags.attribute_weight)
     throw UsageError("simplify: --attribute-weight weighs what --drop-attributes drops; give only one of them");
+  if (!flags.progressive.empty() && !flags.placement.empty() && flags.placement != "subset")
+    throw UsageError(fmt::format(
+        "simplify: --progressive needs --placement subset: a split brings a vertex of the input back; leave out "
+        "--placement {}",
+        flags.placement));
 }
 
 SimplifySurfaceOptions to_options(const Flags& flags) {
   require_ranges(flags);
   require_agreement(flags);
   SimplifySurfaceOptions options = flags.options;
-  options.placement = choose_placement(flags.placement);
+  if (!flags.placement.empty()) options.placement = choose_placement(flags.placement);
   options.quadric = choose("--quadric", flags.quadric, quadrics());
   options.area_weights = !flags.no_area_weights;
   options.half_space = !flags.no_half_space;
