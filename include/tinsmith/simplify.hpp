@@ -55,9 +55,9 @@ struct SurfaceDefects {
   std::uint64_t duplicated_triangles = 0;   // the same three vertices again: removed
   std::uint64_t degenerate_triangles = 0;   // a vertex twice, or no area: removed where a vertex is twice
   std::uint64_t flipped_triangles = 0;      // against their neighbours' orientation: turned over
-  std::uint64_t non_manifold_edges = 0;     // more than two triangles: kept, their vertices locked
-  std::uint64_t non_manifold_vertices = 0;  // more than one fan: kept, locked
-  std::uint64_t unorientable_edges = 0;     // of a surface like Moebius's: kept, their vertices locked
+  std::uint64_t non_manifold_edges = 0;     // more than two triangles: cut apart, vertices locked
+  std::uint64_t non_manifold_vertices = 0;  // more than one fan: cut apart, locked
+  std::uint64_t unorientable_edges = 0;     // of a surface like Moebius's: cut apart, locked
   std::uint64_t unreferenced_vertices = 0;  // removed
 
   bool any() const {
@@ -79,6 +79,7 @@ struct SimplifySurfaceReport {
   SurfaceDefects defects;
   std::uint64_t input_vertices = 0;
   std::uint64_t input_triangles = 0;
+  std::uint64_t components = 0;     // of the input, mended: parts that share no edge
   std::uint64_t border_edges = 0;   // of the input
   std::uint64_t feature_edges = 0;  // of the input, borders not counted
   std::uint64_t collapses = 0;

@@ -478,6 +478,7 @@ SurfaceMesh simplified_mesh(const Surface& surface, const SimplifySurfaceOptions
   SurfaceMesh mesh = surface_mesh_of(surface, report.defects);
   if (mesh.origin.empty() && !surface.triangles.empty())
     throw InputError("no triangle is left: each has a corner twice; look at what wrote the mesh");
+  report.components = count_components(mesh);
   mark_features(mesh, options, report);
   values = wedge_values(mesh, surface);
   SurfaceSimplifier(mesh, values, options, report, history).run(target_of(options, surface.triangles.size()));

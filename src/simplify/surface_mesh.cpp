@@ -180,6 +180,22 @@ SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects) {
   return mesh;
 }
 
+std::uint64_t count_components(const SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.position.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  // Every vertex has triangles, and one fan of them: parts share no vertex.
+  std::uint64_t n = parent.size();
+  for (std::size_t h = 0; h < mesh.origin.size(); ++h) {
+    const std::uint32_t a = root_of(parent, static_cast<std::uint32_t>(mesh.origin[h]));
+    const std::uint32_t b =
+        root_of(parent, static_cast<std::uint32_t>(mesh.destination(static_cast<std::int32_t>(h))));
+    if (a == b) continue;
+    parent[a] = b;
+    --n;
+  }
+  return n;
+}
+
 void mark_features(SurfaceMesh& mesh, const SimplifySurfaceOptions& options, SimplifySurfaceReport& report) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
   const double least_cosine = options.crease ? std::cos(*options.crease * kDegree) : -2;

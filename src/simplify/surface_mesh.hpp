@@ -48,6 +48,9 @@ double triangle_area(const SurfaceMesh& mesh, std::int32_t h);
 /// counted.
 SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects);
 
+/// Parts that share no edge.
+std::uint64_t count_components(const SurfaceMesh& mesh);
+
 /// Marks borders, creases, seams of the attributes and the given edges (vertices of the input), and from them the
 /// kinds of all vertices. Counts them in the report.
 void mark_features(SurfaceMesh& mesh, const SimplifySurfaceOptions& options, SimplifySurfaceReport& report);

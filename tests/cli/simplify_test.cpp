@@ -218,13 +218,28 @@ TEST_F(Simplify, ExplainsItself) {
 
 TEST_F(Simplify, ReportsEveryKeyAsJson) {
   const json said = report({sheet(30), path("out.ply"), "--triangles", "200"});
-  for (const char* key : {"input_vertices",     "input_triangles",       "vertices",
-                          "triangles",          "border_edges",          "feature_edges",
-                          "collapses",          "refused_topology",      "refused_half_space",
-                          "last_cost",          "duplicated_triangles",  "degenerate_triangles",
-                          "flipped_triangles",  "non_manifold_edges",    "non_manifold_vertices",
-                          "unorientable_edges", "unreferenced_vertices", "seconds",
-                          "simplify_seconds",   "peak_memory_bytes",     "bytes"})
+  for (const char* key : {"components",
+                          "input_vertices",
+                          "input_triangles",
+                          "vertices",
+                          "triangles",
+                          "border_edges",
+                          "feature_edges",
+                          "collapses",
+                          "refused_topology",
+                          "refused_half_space",
+                          "last_cost",
+                          "duplicated_triangles",
+                          "degenerate_triangles",
+                          "flipped_triangles",
+                          "non_manifold_edges",
+                          "non_manifold_vertices",
+                          "unorientable_edges",
+                          "unreferenced_vertices",
+                          "seconds",
+                          "simplify_seconds",
+                          "peak_memory_bytes",
+                          "bytes"})
     EXPECT_TRUE(said.at(key).is_number()) << key;
   EXPECT_TRUE(said.at("version").is_string());
   EXPECT_TRUE(said.at("stopped_by").is_string());

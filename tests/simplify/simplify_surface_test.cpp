@@ -349,6 +349,17 @@ TEST(SimplifySurface, KeepsEdgesGivenByTheCaller) {
   EXPECT_GE(n_on_row, 2U);
 }
 
+TEST(SimplifySurface, CountsThePartsOfTheInput) {
+  Surface two = sphere(4);
+  const auto n = static_cast<std::uint32_t>(two.position.size());
+  two.position.push_back({9, 9, 9});  // belongs to no triangle
+  for (const Point3& p : sphere(4).position) two.position.push_back({p[0] + 5, p[1], p[2]});
+  for (const auto& [a, b, c] : sphere(4).triangles) two.triangles.push_back({a + n + 1, b + n + 1, c + n + 1});
+  EXPECT_EQ(simplified(sphere(4), {}, 0.5).report.components, 1U);
+  EXPECT_EQ(simplified(two, {}, 0.5).report.components, 2U);
+  EXPECT_EQ(simplified(cube_with_face_normals(4), {}, 0.5).report.components, 1U) << "seams part nothing";
+}
+
 TEST(SimplifySurface, LocksWhatIsNoSurface) {
   Surface book;  // three pages at one edge
   book.position = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};

@@ -36,7 +36,7 @@ MESH and OUTPUT are .ply, .obj, .stl or .glb; OUTPUT's format is that of its ext
 values at the vertices are simplified together with the shape (.stl holds none; .obj and .glb hold colours and normals
 only). Borders and features are simplified along themselves; corners, where they meet or turn sharply, stay. What is
 wrong with the input (triangles that are there twice or face against their neighbours, edges with more than two
-triangles, ...) is counted, mended where that loses nothing, else kept as it is.
+triangles, ...) is counted, mended where that loses nothing, else cut apart there and locked in its place.
 
 when to stop, at the first that is reached; without any, when no edge can be collapsed:
   --triangles N          at most N triangles
@@ -233,6 +233,7 @@ Json report_of(const Flags& flags, const SimplifySurfaceReport& simplified, cons
   report["input_triangles"] = simplified.input_triangles;
   report["vertices"] = result.position.size();
   report["triangles"] = result.triangles.size();
+  report["components"] = simplified.components;
   report["border_edges"] = simplified.border_edges;
   report["feature_edges"] = simplified.feature_edges;
   report["collapses"] = simplified.collapses;

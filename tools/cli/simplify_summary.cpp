@@ -18,6 +18,8 @@ struct Defect {
   const char* outcome;
 };
 
+constexpr const char* kCutApart = "cut apart there, and locked so that nothing gapes";
+
 constexpr std::array kDefects{
     Defect{"duplicated_triangles", &SurfaceDefects::duplicated_triangles, "triangle was there again",
            "triangles were there again", "removed"},
@@ -26,13 +28,13 @@ constexpr std::array kDefects{
     Defect{"flipped_triangles", &SurfaceDefects::flipped_triangles, "triangle faced against its neighbours",
            "triangles faced against their neighbours", "turned over"},
     Defect{"non_manifold_edges", &SurfaceDefects::non_manifold_edges, "edge had more than two triangles",
-           "edges had more than two triangles", "kept as they were"},
+           "edges had more than two triangles", kCutApart},
     Defect{"non_manifold_vertices", &SurfaceDefects::non_manifold_vertices,
            "vertex joined parts that share no edge there", "vertices joined parts that share no edge there",
-           "kept as they were"},
+           kCutApart},
     Defect{"unorientable_edges", &SurfaceDefects::unorientable_edges,
            "edge lay where the surface has only one side", "edges lay where the surface has only one side",
-           "kept as they were"},
+           kCutApart},
     Defect{"unreferenced_vertices", &SurfaceDefects::unreferenced_vertices, "vertex belonged to no triangle",
            "vertices belonged to no triangle", "removed"},
 };
@@ -49,6 +51,7 @@ void print_size(const Json& report) {
   const std::string than = times > 1 ? fmt::format(", {:.4g} times fewer than the input's ", times) : " of ";
   line("triangles", count(report, "triangles") + than + count(report, "input_triangles"));
   line("vertices", count(report, "vertices") + " of " + count(report, "input_vertices"));
+  line("parts", count(report, "components") + " in the input, each connected by edges");
   line("kept lines", fmt::format("{} border edges and {} feature edges in the input", count(report, "border_edges"),
                                  count(report, "feature_edges")));
 }
