@@ -116,18 +116,19 @@ void collapse_edge(Halfedges& mesh, std::int32_t h, std::int32_t kept) {
   const std::int32_t gone = mesh.origin[at(h)] == kept ? mesh.destination(h) : mesh.origin[at(h)];
   const std::int32_t g = mesh.twin[at(h)];
   const std::int32_t start = mesh.out[at(gone)];
+  const bool is_closed = !mesh.is_border_vertex(kept) && !mesh.is_border_vertex(gone);
   std::int32_t f = start;
   do {
     mesh.origin[at(f)] = kept;
     f = mesh.turn(f);
   } while (f != kNone && f != start);
-  // A halfedge that leaves the new vertex, outside of (v0, v1, vl): from it the start of the fan is found.
+  // A halfedge that leaves the new vertex, outside of (v0, v1, vl): from it the start of an open fan is found.
   std::int32_t leaving = mesh.twin[at(Halfedges::previous(h))];
   if (leaving == kNone) leaving = Halfedges::next(mesh.twin[at(Halfedges::next(h))]);
   close_triangle(mesh, h);
   if (g != kNone) close_triangle(mesh, g);
   mesh.out[at(gone)] = kNone;
-  mesh.out[at(kept)] = fan_of(mesh, leaving).start;
+  mesh.out[at(kept)] = is_closed ? leaving : fan_of(mesh, leaving).start;
 }
 
 //        c                 c
