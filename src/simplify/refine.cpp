@@ -17,42 +17,15 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // A step must be worth its disturbance.
 constexpr double kWorthwhile = 0.98;
-constexpr double kStep = 0.25;  // of the mean edge length
+constexpr std::array kParts{1.0, 0.4};  // of the step that are tried
+constexpr double kReach = 0.5;          // of the mean edge length
 
 Corner corner(const WindowMesh& mesh, std::int32_t v) { return {mesh.position[at(v)], mesh.height[at(v)]}; }
 
-// Where a vertex of this kind may go, one step of `step` lattice units.
-struct Directions {
-  std::array<LatticePoint, 8> list;
-  std::size_t n = 0;
-};
-
-Directions directions(const WindowMesh& mesh, std::int32_t v, std::int32_t step, std::size_t n) {
-  const auto diagonal = static_cast<std::int32_t>(std::lround(step * 0.7071));
-  if (mesh.kind[at(v)] == VertexKind::kInterior) {
-    // Two: neighbours, whose numbers are near, look along different diagonals.
-    if (n == 2 && v % 2 == 1) return {{{{-diagonal, diagonal}, {diagonal, -diagonal}}}, n};
-    return {{{{diagonal, diagonal},
-              {-diagonal, -diagonal},
-              {-diagonal, diagonal},
-              {diagonal, -diagonal},
-              {step, 0},
-              {0, step},
-              {-step, 0},
-              {0, -step}}},
-            n};
-  }
-  if (mesh.kind[at(v)] != VertexKind::kBorder) return {};
-  const LatticePoint p = mesh.position[at(v)];
-  const LatticePoint q = mesh.position[at(mesh.destination(mesh.out[at(v)]))];
-  if (p.y == q.y) return {{{{step, 0}, {-step, 0}}}, 2};
-  return {{{{0, step}, {0, -step}}}, 2};
-}
-
 double squared(std::int32_t v) { return static_cast<double>(v) * v; }
 
-// Gathers the star and returns the step.
-std::int32_t gather(const WindowMesh& mesh, std::int32_t v, Star& star) {
+// Gathers the star and returns how far its middle may go, in lattice units.
+double gather(const WindowMesh& mesh, std::int32_t v, Star& star) {
   star.clear();
   const LatticePoint p = mesh.position[at(v)];
   double length = 0;
@@ -61,7 +34,46 @@ std::int32_t gather(const WindowMesh& mesh, std::int32_t v, Star& star) {
     star.push_back({a, corner(mesh, mesh.origin[at(WindowMesh::previous(h))])});
     length += std::sqrt(squared(a.position.x - p.x) + squared(a.position.y - p.y));
   });
-  return std::max(1, static_cast<std::int32_t>(std::lround(kStep * length / static_cast<double>(star.size()))));
+  return kReach * length / static_cast<double>(star.size());
+}
+
+struct Step {
+  double x = 0;
+  double y = 0;
+
+  friend Step operator*(double factor, Step s) { return {factor * s.x, factor * s.y}; }
+};
+
+// Where the gradient of the system vanishes. A little damped, since stars of equal slopes leave it open.
+Step solve(const PlanSystem& s) {
+  constexpr double kDamping = 0.002;
+  const double damping = kDamping * (s.xx + s.yy);
+  const double xx = s.xx + damping;
+  const double yy = s.yy + damping;
+  const double determinant = xx * yy - s.xy * s.xy;
+  if (!(determinant > 0)) return {};
+  return {(s.rx * yy - s.ry * s.xy) / determinant, (s.ry * xx - s.rx * s.xy) / determinant};
+}
+
+double step_along(double curvature, double slope) { return curvature > 0 ? slope / curvature : 0; }
+
+// As far as the kind of the vertex lets it go.
+Step best_step(const WindowMesh& mesh, std::int32_t v, const PlanSystem& system) {
+  if (mesh.kind[at(v)] == VertexKind::kInterior) return solve(system);
+  if (mesh.kind[at(v)] != VertexKind::kBorder) return {};
+  const LatticePoint p = mesh.position[at(v)];
+  const LatticePoint q = mesh.position[at(mesh.destination(mesh.out[at(v)]))];
+  if (p.y == q.y) return {step_along(system.xx, system.rx), 0};
+  return {0, step_along(system.yy, system.ry)};
+}
+
+Step at_most(double length, Step s) {
+  const double squared_length = s.x * s.x + s.y * s.y;
+  return squared_length > length * length ? length / std::sqrt(squared_length) * s : s;
+}
+
+LatticePoint moved(LatticePoint p, Step s) {
+  return {p.x + static_cast<std::int32_t>(std::lround(s.x)), p.y + static_cast<std::int32_t>(std::lround(s.y))};
 }
 
 // The border's own line bounds a sliding vertex too: it must not pass its neighbours.
@@ -121,19 +133,21 @@ double colour_error(const WindowMesh& mesh, const RefineBound& bound, const std:
 
 bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, Star& star) {
   if (!bound.may_move || mesh.kind[at(v)] == VertexKind::kLocked) return false;
-  const std::int32_t step = gather(mesh, v, star);
+  const double reach = gather(mesh, v, star);
   const Bound star_bound{bound.samples, bound.tolerance, mesh.height[at(v)]};
   const LatticePoint p = mesh.position[at(v)];
-  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  HeightFit best = fit_height(star, star_bound, p, kNoLimit);
+  PlanSystem system;
+  HeightFit best = fit_height(star, star_bound, p, system);
   if (!best.is_feasible) return false;  // by rounding only
   LatticePoint best_position = p;
   const StarColour colour(mesh, bound, v);
   StarColour::Fit best_colour = colour.fit(p);
   const double worth = kWorthwhile * (best.squared_error_at_reference + colour.squared_error(p));
-  const Directions where = directions(mesh, v, step, bound.directions);
-  for (std::size_t i = 0; i < where.n; ++i) {
-    const LatticePoint q{p.x + where.list[i].x, p.y + where.list[i].y};
+  if (!(worth > 0)) return false;
+  const Step step = at_most(reach, best_step(mesh, v, system));
+  for (const double part : kParts) {
+    const LatticePoint q = moved(p, part * step);
+    if (q == p) break;
     if (!is_in_kernel(star, q) || !stays_between(mesh, v, q)) continue;
     const double limit = best.squared_error + best_colour.squared_error;
     const HeightFit there = fit_height(star, star_bound, q, limit);
@@ -143,6 +157,7 @@ bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, 
     best = there;
     best_colour = colour_there;
     best_position = q;
+    break;
   }
   if (!(best.squared_error + best_colour.squared_error < worth)) return false;
   mesh.position[at(v)] = best_position;
@@ -151,7 +166,7 @@ bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, 
   return true;
 }
 
-bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h) {
+bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h, std::vector<double>& squared_error) {
   if (mesh.is_border_edge(h)) return false;
   const std::int32_t g = mesh.twin[at(h)];
   const std::int32_t va = mesh.origin[at(h)];
@@ -164,15 +179,19 @@ bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h) {
   const Corner d = corner(mesh, vd);
   if (orient(d.position, c.position, a.position) <= 0 || orient(c.position, d.position, b.position) <= 0)
     return false;
+  const auto known = [&](std::int32_t halfedge, const Corner& p, const Corner& q, const Corner& r) {
+    double& squared = squared_error[at(halfedge / 3)];
+    if (std::isnan(squared)) squared = triangle_error(bound.samples, p, q, r).sum_of_squares;
+    return squared;
+  };
+  const double before = known(h, a, b, c) + known(g, b, a, d);
+  const double worth = kWorthwhile * (before + colour_error(mesh, bound, {va, vb, vc, vd}));
   const TriangleError left = triangle_error(bound.samples, d, c, a);
-  if (!(left.largest <= bound.tolerance)) return false;
+  if (!(left.largest <= bound.tolerance && left.sum_of_squares < worth)) return false;
   const TriangleError right = triangle_error(bound.samples, c, d, b);
   if (!(right.largest <= bound.tolerance)) return false;
-  const double before =
-      triangle_error(bound.samples, a, b, c).sum_of_squares + triangle_error(bound.samples, b, a, d).sum_of_squares;
-  const double colour_before = colour_error(mesh, bound, {va, vb, vc, vd});
   const double after = left.sum_of_squares + right.sum_of_squares + colour_error(mesh, bound, {vd, vc, va, vb});
-  if (!(after < kWorthwhile * (before + colour_before))) return false;
+  if (!(after < worth)) return false;
   flip_edge(mesh, h);
   return true;
 }

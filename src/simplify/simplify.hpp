@@ -18,10 +18,13 @@ namespace tinsmith {
 
 /// How hard to try.
 struct Labour {
-  int refinements = 0;  // rounds of vertex moves, flips and further collapses after the first pass
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  int refinements =
+      0;  // rounds of vertex moves, flips and further collapses after the first pass, then one without
   // Edges whose mean squared quadric error is more than this times the squared tolerance are not tried.
-  double patience = std::numeric_limits<double>::infinity();
-  std::size_t directions = 8;  // in which vertices are moved: 2, 4 or 8
+  double patience = kNoLimit;
+  // Nor may the root of the mean squared error over a new star be more than this times the tolerance.
+  double roughness = kNoLimit;
 };
 
 Labour labour_of(Effort effort);

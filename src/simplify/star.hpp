@@ -27,11 +27,13 @@ struct HeightInterval {
   LatticePoint highest_at;
   double sum_wr = 0;
   double sum_ww = 0;
-  double sum_rr = 0;  // for fits only
+  double sum_rr = 0;
 
   bool is_empty() const { return lowest > highest; }
   /// The least-squares height, held within the interval.
   double best() const;
+  /// The sum of the samples' squared errors with this height.
+  double squared_error(double height) const { return sum_rr + height * (height * sum_ww - 2 * sum_wr); }
 };
 
 /// A height of the middle vertex, relative to a reference, and the sums of the samples' squared errors with it and
@@ -41,6 +43,14 @@ struct HeightFit {
   double squared_error = 0;
   double squared_error_at_reference = 0;
   bool is_feasible = false;
+};
+
+/// How the squared error of a star changes with a step (x, y) of its middle in plan, in lattice units, when the
+/// height is always the best one and the slopes of the triangles stay: half its gradient is (xx x + xy y - rx, xy x
+/// + yy y - ry). (The Gauss-Newton step of a least-squares problem in x, y and z, with z eliminated.)
+struct PlanSystem {
+  double xx = 0, xy = 0, yy = 0;
+  double rx = 0, ry = 0;
 };
 
 /// What the sweep measures against. Heights are taken relative to `reference`, for precision.
@@ -60,9 +70,13 @@ HeightInterval feasible_heights(const Star& star, const Bound& bound, LatticePoi
 /// would not be below `limit`. Stops as soon as that is certain.
 HeightFit fit_height(const Star& star, const Bound& bound, LatticePoint p, double limit);
 
+/// The same without a limit, and where to go from p.
+HeightFit fit_height(const Star& star, const Bound& bound, LatticePoint p, PlanSystem& system);
+
 /// The same to the bit, with the instructions that every machine has.
 HeightInterval feasible_heights_portable(const Star& star, const Bound& bound, LatticePoint p);
 HeightFit fit_height_portable(const Star& star, const Bound& bound, LatticePoint p, double limit);
+HeightFit fit_height_portable(const Star& star, const Bound& bound, LatticePoint p, PlanSystem& system);
 
 /// Whether the two samples that set the ends of an earlier, empty interval alone leave no height at p either.
 bool is_still_empty(const HeightInterval& earlier, const Star& star, const Bound& bound, LatticePoint p);

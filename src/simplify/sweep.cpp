@@ -12,8 +12,35 @@ namespace {
 
 constexpr double kMax = std::numeric_limits<double>::max();
 
-// What the samples seen so far say, those of each lane apart. For a fit the squares of the residuals are summed;
-// else it is noted which samples set the ends of the interval.
+// The normal equations of a step in x, y and z, summed by triangles: moving the middle by (x, y, z) changes what a
+// sample of weight w is off by w (slope . (x, y) - z).
+struct StepSums {
+  double xx = 0, xy = 0, yy = 0;
+  double x = 0, y = 0;
+  double rx = 0, ry = 0;
+
+  void add(const SweptTriangle& t, double ww, double wr) {
+    const double slope_x = (t.height_a * t.by - t.height_b * t.ay) * t.inverse_area;
+    const double slope_y = (t.height_b * t.ax - t.height_a * t.bx) * t.inverse_area;
+    xx += ww * slope_x * slope_x;
+    xy += ww * slope_x * slope_y;
+    yy += ww * slope_y * slope_y;
+    x += ww * slope_x;
+    y += ww * slope_y;
+    rx += wr * slope_x;
+    ry += wr * slope_y;
+  }
+
+  PlanSystem without_height(double ww, double wr) const {
+    if (!(ww > 0)) return {};
+    const double mean_x = x / ww;
+    const double mean_y = y / ww;
+    return {xx - x * mean_x, xy - x * mean_y, yy - y * mean_y, mean_x * wr - rx, mean_y * wr - ry};
+  }
+};
+
+// What the samples seen so far say, those of each lane apart. For an interval it is noted which samples set its
+// ends.
 template <class L, bool kForFit>
 class StarSweep {
  public:
@@ -22,6 +49,13 @@ class StarSweep {
 
   TINSMITH_INLINE void add(const Side& side) {
     sweep_triangle<L>(samples_, {p_, reference_}, side.a, side.b, *this);
+  }
+
+  TINSMITH_INLINE void add(const Side& side, StepSums& sums) {
+    const double ww = sum_ww_.sum();
+    const double wr = sum_wr_.sum();
+    add(side);
+    sums.add({p_, side.a, side.b, reference_}, sum_ww_.sum() - ww, sum_wr_.sum() - wr);
   }
 
   TINSMITH_INLINE bool is_empty() const { return lowest_.largest() > highest_.smallest(); }
@@ -77,7 +111,7 @@ class StarSweep {
     const L residual = where_less(inside, zero, zero, r);
     sum_wr_ = sum_wr_ + weight * residual;
     sum_ww_ = sum_ww_ + weight * weight;
-    if constexpr (kForFit) sum_rr_ = sum_rr_ + residual * residual;
+    sum_rr_ = sum_rr_ + residual * residual;
     lowest_sample_ = min(where_less(inside, zero, L::all(kMax), z), lowest_sample_);
     highest_sample_ = max(where_less(inside, zero, L::all(-kMax), z), highest_sample_);
   }
@@ -108,6 +142,12 @@ TINSMITH_INLINE HeightInterval sweep(const Star& star, const Bound& bound, Latti
   return so_far.result();
 }
 
+TINSMITH_INLINE HeightFit fit_of(const HeightInterval& interval) {
+  if (interval.is_empty()) return {};
+  const double height = interval.best();
+  return {height, interval.squared_error(height), interval.sum_rr, true};
+}
+
 template <class L>
 TINSMITH_INLINE HeightFit sweep_for_fit(const Star& star, const Bound& bound, LatticePoint p, double limit) {
   StarSweep<L, true> so_far(bound, p);
@@ -115,11 +155,18 @@ TINSMITH_INLINE HeightFit sweep_for_fit(const Star& star, const Bound& bound, La
     so_far.add(side);
     if (so_far.is_empty() || so_far.least_squared_error() >= limit) return {};
   }
+  const HeightFit fit = fit_of(so_far.result());
+  return fit.squared_error < limit ? fit : HeightFit{};
+}
+
+template <class L>
+TINSMITH_INLINE HeightFit sweep_for_step(const Star& star, const Bound& bound, LatticePoint p, PlanSystem& system) {
+  StarSweep<L, true> so_far(bound, p);
+  StepSums sums;
+  for (const Side& side : star) so_far.add(side, sums);
   const HeightInterval interval = so_far.result();
-  if (interval.is_empty()) return {};
-  const double height = interval.best();
-  const double squared = interval.sum_rr + height * (height * interval.sum_ww - 2 * interval.sum_wr);
-  return squared < limit ? HeightFit{height, squared, interval.sum_rr, true} : HeightFit{};
+  system = sums.without_height(interval.sum_ww, interval.sum_wr);
+  return fit_of(interval);
 }
 
 #ifdef TINSMITH_HAS_AVX2_VARIANT
@@ -129,6 +176,10 @@ __attribute__((target("avx2"))) HeightInterval sweep_avx2(const Star& star, cons
 __attribute__((target("avx2"))) HeightFit sweep_for_fit_avx2(const Star& star, const Bound& bound, LatticePoint p,
                                                              double limit) {
   return sweep_for_fit<Lanes<Quad>>(star, bound, p, limit);
+}
+__attribute__((target("avx2"))) HeightFit sweep_for_step_avx2(const Star& star, const Bound& bound, LatticePoint p,
+                                                              PlanSystem& system) {
+  return sweep_for_step<Lanes<Quad>>(star, bound, p, system);
 }
 #endif
 
@@ -140,6 +191,10 @@ HeightInterval feasible_heights_portable(const Star& star, const Bound& bound, L
 
 HeightFit fit_height_portable(const Star& star, const Bound& bound, LatticePoint p, double limit) {
   return sweep_for_fit<Lanes<Pair>>(star, bound, p, limit);
+}
+
+HeightFit fit_height_portable(const Star& star, const Bound& bound, LatticePoint p, PlanSystem& system) {
+  return sweep_for_step<Lanes<Pair>>(star, bound, p, system);
 }
 
 HeightInterval feasible_heights(const Star& star, const Bound& bound, LatticePoint p) {
@@ -154,6 +209,13 @@ HeightFit fit_height(const Star& star, const Bound& bound, LatticePoint p, doubl
   if (has_avx2()) return sweep_for_fit_avx2(star, bound, p, limit);
 #endif
   return fit_height_portable(star, bound, p, limit);
+}
+
+HeightFit fit_height(const Star& star, const Bound& bound, LatticePoint p, PlanSystem& system) {
+#ifdef TINSMITH_HAS_AVX2_VARIANT
+  if (has_avx2()) return sweep_for_step_avx2(star, bound, p, system);
+#endif
+  return fit_height_portable(star, bound, p, system);
 }
 
 }  // namespace tinsmith

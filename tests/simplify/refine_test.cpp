@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "samples/array_field.hpp"
+#include "samples/triangle_error.hpp"
 #include "simplify/simplify.hpp"
 #include "stitch/kinds.hpp"
 #include "support/mesh_drawings.hpp"
@@ -44,15 +46,21 @@ std::int32_t inner_halfedge(const WindowMesh& mesh) {
   return h;
 }
 
+std::vector<double> nothing_known(const WindowMesh& mesh) {
+  return std::vector<double>(mesh.origin.size() / 3, std::numeric_limits<double>::quiet_NaN());
+}
+
 TEST(ImproveEdge, TakesTheDiagonalThatFollowsTheTerrain) {
   const HeightGrid grid = roof(8);
   WindowMesh mesh = square_with_wrong_diagonal(8);
-  EXPECT_TRUE(improve_edge(mesh, {grid, 10}, inner_halfedge(mesh)));
+  std::vector<double> squared_error = nothing_known(mesh);
+  EXPECT_TRUE(improve_edge(mesh, {grid, 10}, inner_halfedge(mesh), squared_error));
   EXPECT_EQ(validate(mesh), "");
   const std::int32_t h = inner_halfedge(mesh);
   EXPECT_EQ(mesh.origin[static_cast<std::size_t>(h)] % 2, 0);
   EXPECT_EQ(mesh.destination(h) % 2, 0);
-  EXPECT_FALSE(improve_edge(mesh, {grid, 10}, h));  // and stays there
+  squared_error = nothing_known(mesh);
+  EXPECT_FALSE(improve_edge(mesh, {grid, 10}, h, squared_error));  // and stays there
 }
 
 TEST(ImproveEdge, KeepsAnEdgeWhoseOtherDiagonalLiesOutside) {
@@ -60,7 +68,32 @@ TEST(ImproveEdge, KeepsAnEdgeWhoseOtherDiagonalLiesOutside) {
   WindowMesh mesh = square_with_wrong_diagonal(8);
   mesh.position[3] = {60, 6};  // just above the line from vertex 0 to vertex 2, which now leaves the quadrilateral
   ASSERT_EQ(validate(mesh), "");
-  EXPECT_FALSE(improve_edge(mesh, {grid, 10}, inner_halfedge(mesh)));
+  std::vector<double> squared_error = nothing_known(mesh);
+  EXPECT_FALSE(improve_edge(mesh, {grid, 10}, inner_halfedge(mesh), squared_error));
+}
+
+// A pyramid is a star around its top.
+TEST(ImproveVertex, FindsTheTopOfAPyramidFromBesideIt) {
+  HeightGrid grid{{0, 0, 17, 17}, std::vector<double>(289)};
+  for (int y = 0; y < 17; ++y) {
+    for (int x = 0; x < 17; ++x)
+      grid.z[static_cast<std::size_t>(y) * 17 + static_cast<std::size_t>(x)] =
+          40 - 5.0 * std::max(std::abs(x - 8), std::abs(y - 8));
+  }
+  WindowMesh mesh;
+  constexpr std::int32_t kSide = 16 * kLatticePerCell;
+  mesh.position = {{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}, {kSide / 2 + 45, kSide / 2 - 21}};
+  mesh.height = {0, 0, 0, 0, 25};
+  mesh.is_settled.assign(5, 0);
+  connect(mesh, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+  mesh.kind = {VertexKind::kCorner, VertexKind::kCorner, VertexKind::kCorner, VertexKind::kCorner,
+               VertexKind::kInterior};
+  Star star;
+  int n_steps = 0;
+  while (improve_vertex(mesh, {grid, 40}, 4, star)) ++n_steps;
+  EXPECT_LE(n_steps, 6);
+  EXPECT_EQ(mesh.position[4], (LatticePoint{kSide / 2, kSide / 2}));
+  EXPECT_NEAR(mesh.height[4], 40, 1e-9);
 }
 
 TEST(FlipEdge, KeepsTheMeshValidAnywhere) {
@@ -109,6 +142,30 @@ TEST(Refinement, LowersTriangleCountAndErrorAndKeepsEveryPromise) {
       before = n;
     }
   }
+}
+
+TEST(Roughness, LowersTheSquaredErrorAndKeepsThePromise) {
+  const HeightGrid grid = mountains(97, 97, 904);
+  const GridRect window{0, 0, 97, 97};
+  const auto mean_square = [&](double roughness) {
+    WindowMesh mesh = triangulate(around(grid, window), window, {10, 1});
+    set_kinds(mesh, around(grid, window));
+    simplify(mesh, around(grid, window),
+             {kTolerance, Placement::kOptimal, {0, Labour::kNoLimit, roughness}, false});
+    EXPECT_EQ(complaints(check_surface(mesh, grid), kTolerance + kRounding), "");
+    double sum = 0;
+    for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
+      if (mesh.origin[static_cast<std::size_t>(h)] == kNone) continue;
+      const auto corner = [&](std::int32_t e) {
+        const auto v = static_cast<std::size_t>(mesh.origin[static_cast<std::size_t>(e)]);
+        return Corner{mesh.position[v], mesh.height[v]};
+      };
+      sum += triangle_error(grid, corner(h), corner(h + 1), corner(h + 2)).sum_of_squares;
+    }
+    return sum / (96 * 96);
+  };
+  const double free = mean_square(Labour::kNoLimit);
+  EXPECT_LT(mean_square(0.3), 0.9 * free);
 }
 
 TEST(Refinement, OfSubsetPlacementKeepsVerticesOnTheirSamples) {

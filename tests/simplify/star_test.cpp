@@ -155,6 +155,15 @@ TEST(ErrorBound, IsTheSameToTheBitWithEveryInstructionSet) {
     const HeightFit portable = fit_height_portable(star, bound, c.p, 1e6);
     EXPECT_EQ(std::pair(fit.height, fit.squared_error), std::pair(portable.height, portable.squared_error))
         << "seed 233, case " << i;
+    PlanSystem system;
+    PlanSystem portable_system;
+    const HeightFit free = fit_height(star, bound, c.p, system);
+    const HeightFit portable_free = fit_height_portable(star, bound, c.p, portable_system);
+    EXPECT_EQ(std::pair(free.height, free.squared_error),
+              std::pair(portable_free.height, portable_free.squared_error))
+        << "seed 233, case " << i;
+    const auto equations = [](const PlanSystem& p) { return std::array{p.xx, p.xy, p.yy, p.rx, p.ry}; };
+    EXPECT_EQ(equations(system), equations(portable_system)) << "seed 233, case " << i;
   }
 }
 
