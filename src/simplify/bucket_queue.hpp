@@ -1,13 +1,13 @@
 #pragma once
-// A priority queue of vertices for costs, as coarse as it can be: one class of costs for each factor of four, so
+// A priority queue of vertices for costs, as coarse as it can be: one class of costs for each factor of 2^8, so
 // that no two costs are ever compared, and within a class one block of neighbouring vertices after the other, which
-// keeps memory accesses together. Within a block vertices come in their own order (they lie along a space-filling
-// curve), then those added while it is the first, first in first out.
+// keeps memory accesses together: each class goes over all memory of the window once. Within a block vertices come
+// in their own order (they lie along a space-filling curve), then those added while it is the first, first in first
+// out.
 //
-// On the sample terrain at 10 m, 512 x 512 windows: classes of a factor of two without blocks 205 259 triangles in
-// 3.15 s, of four 205 080 in 2.98 s, of sixteen 204 544 in 2.89 s; RMSE 4.23, 4.24 and 4.28 m. Blocks of 4096
-// vertices take another 5 % off the time. Finer classes (16 for a factor of two) changed the number by less than
-// 0.3 %.
+// On the sample terrain at 2, 5 and 10 m, beside classes of a factor of four: CPU time 0.97, 0.95 and 0.99, triangles
+// 0.995, 0.998 and 0.985, RMSE 1.02, 1.01 and 1.02. One class in all has 0.988 of the triangles at 5 m and 1.03 of
+// the RMSE. Blocks of 1024 vertices instead of 4096 change neither by 0.2 %.
 
 #include <algorithm>
 #include <bit>
@@ -49,7 +49,7 @@ class BucketQueue {
   }
 
  private:
-  static constexpr unsigned kShift = 24;  // leaves the exponent without its last bit
+  static constexpr unsigned kShift = 26;  // leaves the exponent without its last three bits
   static constexpr std::size_t kClasses = std::size_t{1} << (31 - kShift);
   static constexpr unsigned kBlockBits = 12;
 
