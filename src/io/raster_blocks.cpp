@@ -7,7 +7,7 @@
 namespace tinsmith {
 namespace {
 
-constexpr std::int32_t kUsualWindow = 256;
+constexpr std::int32_t kUsualWindow = 192;
 
 // Strips of 65536 floats: twice of anything that is published as one strip-wise tile of a DEM.
 constexpr std::uint64_t kCostlyRow = std::uint64_t{64} << 20;

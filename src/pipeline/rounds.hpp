@@ -17,7 +17,7 @@ namespace tinsmith {
 
 struct RoundsOptions {
   double tolerance = 0;  // vertical units of the field
-  std::int32_t window = 256;
+  std::int32_t window = 192;
   Placement placement = Placement::kOptimal;
   Effort effort = Effort::kDefault;
   std::string folder{};                  // where finished windows are kept, there already; empty: in memory only

@@ -107,8 +107,8 @@ TEST_F(Program, SaysOnceThatMetresAreAssumedWithoutACrs) {
 
 TEST_F(Program, CompressUsesFewerThreadsWhereTheMemoryHoldsFewerWindows) {
   const std::string dem = hill("dem.tif", 300);
-  const std::vector<std::string> words{"compress", dem, path("out.ply"), "--max-error", "5", "--memory", "130M",
-                                       "--json",   "-"};
+  const std::vector<std::string> words{"compress", dem,        path("out.ply"), "--max-error", "5", "--memory",
+                                       "130M",     "--window", "256",           "--json",      "-"};
   const Outcome one = run(words);
   ASSERT_EQ(one.exit_code, 0) << one.err;
   EXPECT_EQ(json::parse(one.out)["threads"], 1);
