@@ -486,7 +486,7 @@ Labour labour_of(Effort effort) {
     case Effort::kDefault:
       return {1, 1, 0.62};
     case Effort::kBest:
-      return {4, 2, 0.6};
+      return {8, 4, 0.6};
   }
   return {};
 }

@@ -52,7 +52,7 @@ options:
   --placement P        where a vertex may lie: optimal (anywhere), segment (on the collapsed edge) or subset
                        (every vertex is a sample) (default optimal)
   --effort E           fast, default or best: how much refinement follows the first pass, for fewer triangles; best
-                       takes about 2.5 times as long as fast
+                       takes 2.5 to 3.5 times as long as fast
   --window T           samples along a window's side (default {}); may change the result a little
   --threads N          0: as many as the machine has, if the memory holds so many windows (default 0); never changes
                        the result
