@@ -56,12 +56,24 @@ struct Fit {
   float largest = 0;                    // squared distance at the start
 };
 
+// What is nearly as far off as the farthest sample was at the start counts more than the power 2.5 gives it: this
+// rises from 0 to 1.
+double urgency(double squared, const Fit& fit) {
+  if (!(fit.largest > 0)) return 0;
+  const double share = std::min(1.0, squared / fit.largest);
+  return share * share;
+}
+
 void pull(const WalkedSurface& surface, const Nearest& there, double weight, Fit& fit) {
   const Vec<3>& across = there.squared > kTiny * kTiny ? there.off : surface.facets[at(there.halfedge / 3)].normal;
   const double length = std::sqrt(dot(across, across));
   if (!(length > 0)) return;
   const Vec<3> direction = times(across, 1 / length);
-  weight *= std::sqrt(std::sqrt(there.squared) + kTiny);
+  // With kOfUrgentVertices below, beside none of both: the largest distance of an elephant at 50 % is 0.92 times,
+  // of a sphere at 50 % 0.95 and at 1 % 0.87 times, of a head at 5 % 1.08 times; the RMS distance at most 1.02
+  // times.
+  constexpr double kOfUrgentSamples = 4;
+  weight *= std::sqrt(std::sqrt(there.squared) + kTiny) * (1 + kOfUrgentSamples * urgency(there.squared, fit));
   for (std::int32_t k = 0; k < 3; ++k) {
     if (there.share[at(k)] > 0)
       pull_at(fit.pulls[at(surface.mesh.origin[at(there.halfedge + k)])], weight * there.share[at(k)], direction,
@@ -143,17 +155,30 @@ void hold_near_home(const Vec<3>& off_home, double roam, Vec<3>& step) {
   if (length > roam) step = times(goal, roam / length) - off_home;
 }
 
+// A vertex wants to be near the input too, beside its samples, where it is urgent: the places that are best for
+// the samples of round ground lie off it, and at 50 % many vertices were as far off as the farthest sample.
+void pull_back(const Nearest& below, const Fit& fit, Quadric<3>& pull) {
+  using Q = Quadric<3>;
+  constexpr double kOfUrgentVertices = 0.4;  // of the weight of its samples
+  const double length = std::sqrt(below.squared);
+  if (below.halfedge == kNone || !(length > 0)) return;
+  const double trace = pull.q[Q::a(0, 0)] + pull.q[Q::a(1, 1)] + pull.q[Q::a(2, 2)];
+  pull_at(pull, kOfUrgentVertices * urgency(below.squared, fit) * trace, times(below.off, 1 / length),
+          times(below.off, -1));
+}
+
 // The largest part of the step that leaves the vertex no farther from the input than the farthest sample was from
 // the surface at the start, or no farther than it is: samples know where the input is, not where the surface goes.
-void hold_near_input(const WalkedSurface& input, const Vec<3>& p, std::int32_t v, Fit& fit, Vec<3>& step) {
-  std::int32_t& triangle = fit.below[at(v)];
-  Nearest there = nearest(input, p, triangle, v);
-  const double squared = std::max(static_cast<double>(fit.largest), there.squared);
+// `below`: from where it is.
+void hold_near_input(const WalkedSurface& input, const Vec<3>& p, std::int32_t v, const Nearest& below, Fit& fit,
+                     Vec<3>& step) {
+  const double squared = std::max(static_cast<double>(fit.largest), below.squared);
+  Nearest there = below;
   constexpr int kHalves = 3;
   for (int i = 0; i < kHalves; ++i) {
     there = nearest(input, p - times(step, -1), there.halfedge, v);
     if (there.squared <= squared) {
-      triangle = there.halfedge;
+      fit.below[at(v)] = there.halfedge;
       return;
     }
     step = times(step, 0.5);
@@ -166,10 +191,15 @@ void step_all(const WalkedSurface& input, SurfaceMesh& mesh, Fit& fit) {
   const double roam = kRoam * std::sqrt(static_cast<double>(fit.largest));
   SurfaceStar star;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(fit.pulls.size()); ++v) {
+    if (!may_move(mesh, v) || fit.is_astray[at(v)]) continue;
+    const Vec<3>& p = mesh.position[at(v)];
+    const Nearest below = nearest(input, p, fit.below[at(v)], v);
+    fit.below[at(v)] = below.halfedge;
+    pull_back(below, fit, fit.pulls[at(v)]);
     Vec<3> step{};
-    if (!may_move(mesh, v) || fit.is_astray[at(v)] || !find_step(fit.pulls[at(v)], step)) continue;
-    hold_near_home(mesh.position[at(v)] - fit.home[at(v)], roam, step);
-    hold_near_input(input, mesh.position[at(v)], v, fit, step);
+    if (!find_step(fit.pulls[at(v)], step)) continue;
+    hold_near_home(p - fit.home[at(v)], roam, step);
+    hold_near_input(input, p, v, below, fit, step);
     move_by(mesh, v, step, star);
   }
 }
