@@ -7,7 +7,8 @@
 
 namespace tinsmith {
 
-/// Appends to a file, which is made when it is not there; returns where the bytes begin. Throws OutputError.
+/// Appends to a file, which is made when it is not there; returns where the bytes begin. All of them or, where the
+/// disk is full, none: throws OutputError.
 std::uint64_t append_to_file(const std::string& path, std::string_view bytes);
 
 /// As many of the `size` bytes from `offset` as the file has; empty when there is no such file or it can't be read.
