@@ -167,18 +167,23 @@ void pull_back(const Nearest& below, const Fit& fit, Quadric<3>& pull) {
           times(below.off, -1));
 }
 
+// A vertex, and the place of the input that is nearest to it.
+struct Grounded {
+  std::int32_t v;
+  const Vec<3>& p;
+  Nearest below;
+};
+
 // The largest part of the step that leaves the vertex no farther from the input than the farthest sample was from
 // the surface at the start, or no farther than it is: samples know where the input is, not where the surface goes.
-// `below`: from where it is.
-void hold_near_input(const WalkedSurface& input, const Vec<3>& p, std::int32_t v, const Nearest& below, Fit& fit,
-                     Vec<3>& step) {
-  const double squared = std::max(static_cast<double>(fit.largest), below.squared);
-  Nearest there = below;
+void hold_near_input(const WalkedSurface& input, const Grounded& vertex, Fit& fit, Vec<3>& step) {
+  const double squared = std::max(static_cast<double>(fit.largest), vertex.below.squared);
+  Nearest there = vertex.below;
   constexpr int kHalves = 3;
   for (int i = 0; i < kHalves; ++i) {
-    there = nearest(input, p - times(step, -1), there.halfedge, v);
+    there = nearest(input, vertex.p - times(step, -1), there.halfedge, vertex.v);
     if (there.squared <= squared) {
-      fit.below[at(v)] = there.halfedge;
+      fit.below[at(vertex.v)] = there.halfedge;
       return;
     }
     step = times(step, 0.5);
@@ -199,7 +204,7 @@ void step_all(const WalkedSurface& input, SurfaceMesh& mesh, Fit& fit) {
     Vec<3> step{};
     if (!find_step(fit.pulls[at(v)], step)) continue;
     hold_near_home(p - fit.home[at(v)], roam, step);
-    hold_near_input(input, p, v, below, fit, step);
+    hold_near_input(input, {v, p, below}, fit, step);
     move_by(mesh, v, step, star);
   }
 }
