@@ -39,7 +39,7 @@ std::string reason_at(GDALRasterBand& band, const std::string& path, int depth) 
   for (int i = 0; i < CSLCount(sources); ++i) {
     const char* const xml = std::strchr(sources[i], '=');  // behind the name of the item
     const std::string file = xml == nullptr ? "" : file_of(xml + 1, path);
-    const std::string reason = file.empty() ? "" : reason_of(file, depth);
+    std::string reason = file.empty() ? "" : reason_of(file, depth);
     if (!reason.empty()) return reason;
   }
   return "";

@@ -54,8 +54,8 @@ TEST_F(Faults, ASecondRunIsRefusedWhereverItsUnfinishedWorkIs) {
     const std::string work_of_one = one.size() == words().size() ? work() : path("elsewhere");
     ASSERT_TRUE(while_it_stands(
         first, [&] { return !work_files(work_of_one).empty(); },
-        [&] {
-          expect_no_output(run(other), {output(), "another run is at work"});
+        [&, &second = other] {
+          expect_no_output(run(second), {output(), "another run is at work"});
         }));
     EXPECT_EQ(wait_for(first).exit_code, 0);
     EXPECT_TRUE(take_output() == bytes);

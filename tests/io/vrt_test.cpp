@@ -43,7 +43,7 @@ class Vrt : public RasterTest {
   std::vector<std::vector<std::string>> inputs_that_lack_a_tile() const {
     const std::vector<std::string> tiles = two_tiles();
     const std::vector<std::string> wrapped{wrap("left.vrt", tiles[0]), wrap("right.vrt", tiles[1])};
-    const std::vector<std::vector<std::string>> inputs{
+    std::vector<std::vector<std::string>> inputs{
         wrapped,
         {build("built_left.vrt", {tiles[0]}), tiles[1]},
         {build("both.vrt", tiles)},
