@@ -212,10 +212,11 @@ void ChunkStore::put(WindowName task, std::vector<ChunkPart>&& chunks, const Win
   for (const ChunkPart& chunk : chunks) parts.push_back({chunk.window, 0, 0, 0, bytes_held(chunk.chunk), nullptr});
   if (!options_.folder.empty()) write(task, parts, counts, chunks);
   const std::lock_guard lock(mutex_);
-  // Results wait for the end: they leave room for what is needed sooner.
-  const std::uint64_t room = options_.memory / (task.round == graph_.last_round() ? 2 : 1);
+  // Results wait for the end, and there are the more of them the larger the raster is: they wait in the folder.
+  const bool is_result = task.round == graph_.last_round();
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!options_.folder.empty() && in_memory_ + parts[i].memory > room) continue;
+    const bool has_room = !is_result && in_memory_ + parts[i].memory <= options_.memory;
+    if (!options_.folder.empty() && !has_room) continue;
     in_memory_ += parts[i].memory;
     parts[i].chunk = std::make_shared<const Chunk>(std::move(chunks[i].chunk));
   }

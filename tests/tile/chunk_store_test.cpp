@@ -98,5 +98,20 @@ TEST_F(ChunkStoreTest, GivesEveryPartToItsReaderInTheOrderOfTheWindows) {
   }
 }
 
+// They are as many as the raster is large: memory would grow with it.
+TEST_F(ChunkStoreTest, LeavesTheResultsOfTheLastRoundToTheFolder) {
+  const WindowGraph graph(40, 40, 16);
+  std::mt19937 random(7);
+  ChunkStore store(graph, {folder_.string(), std::uint64_t{1} << 30});
+  const WindowName task{graph.last_round(), 0};
+  const Chunk chunk = random_chunk(random);
+  const std::string bytes = bytes_of(chunk);
+  std::vector<ChunkPart> parts;
+  parts.push_back({task.window, chunk});
+  store.put(task, std::move(parts), {});
+  EXPECT_EQ(store.bytes_in_memory(), 0U);
+  for (int reads = 0; reads < 2; ++reads) EXPECT_EQ(bytes_of(*store.result(task.window)), bytes);
+}
+
 }  // namespace
 }  // namespace tinsmith
