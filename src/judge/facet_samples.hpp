@@ -29,8 +29,8 @@ struct CornerWeights {
 namespace detail {
 
 /// The side on which a triangle lies of one of its edges: value(x, y) = length times the distance inside.
-struct Side {
-  Side(const PlanPoint& from, const PlanPoint& to)
+struct FacetSide {
+  FacetSide(const PlanPoint& from, const PlanPoint& to)
       : start(from), nx(from.y - to.y), ny(to.x - from.x), slack(kPlanEpsilon * std::hypot(nx, ny)) {}
   double value(double x, double y) const { return nx * (x - start.x) + ny * (y - start.y); }
 
@@ -55,8 +55,8 @@ inline WholeRange whole_within(const Range& range, std::int32_t least, std::int3
 }
 
 /// The columns that may lie in the triangle on a row, of those in `all`: at least all that do.
-inline Range columns_on(double y, const std::array<Side, 3>& sides, Range all) {
-  for (const Side& side : sides) {
+inline Range columns_on(double y, const std::array<FacetSide, 3>& sides, Range all) {
+  for (const FacetSide& side : sides) {
     if (side.nx == 0) continue;
     const double x = side.start.x - (side.ny * (y - side.start.y) + side.slack) / side.nx;
     if (side.nx > 0) all.low = std::max(all.low, x);
@@ -79,7 +79,8 @@ void for_each_sample_in(const Facet& facet, const GridRect& rect, Visit visit) {
   const PlanPoint b = facet.position[at.corner[1]];
   const PlanPoint c = facet.position[at.corner[2]];
   if (!(doubled_area(a, b, c) > 0)) return;
-  const std::array<detail::Side, 3> sides{detail::Side(b, c), detail::Side(c, a), detail::Side(a, b)};  // opposite
+  const std::array<detail::FacetSide, 3> sides{detail::FacetSide(b, c), detail::FacetSide(c, a),
+                                               detail::FacetSide(a, b)};  // opposite
   const detail::Range columns{std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x})};
   const detail::WholeRange rows =
       detail::whole_within({std::min({a.y, b.y, c.y}) - kPlanEpsilon, std::max({a.y, b.y, c.y}) + kPlanEpsilon},

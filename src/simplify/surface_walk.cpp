@@ -14,7 +14,7 @@ const Vec<3>& point(const WalkedSurface& surface, std::int32_t h) {
   return surface.position[at(surface.mesh.origin[at(h)])];
 }
 
-Facet facet_of(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c) {
+WalkedFacet facet_of(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c) {
   const Vec<3> n = cross(b - a, c - a);
   const double squared = dot(n, n);
   return {a, times(cross(c - a, n), 1 / squared), times(cross(n, b - a), 1 / squared),
@@ -39,7 +39,7 @@ void improve_on_side(const WalkedSurface& surface, std::int32_t h, std::int32_t 
 
 // Whether the triangle of h, the first of its halfedges, is nearer to p than the best so far.
 bool improve(const WalkedSurface& surface, std::int32_t h, const Vec<3>& p, Nearest& best) {
-  const Facet& facet = surface.facets[at(h / 3)];
+  const WalkedFacet& facet = surface.facets[at(h / 3)];
   const Vec<3> d = p - facet.corner;
   const double height = dot(d, facet.normal);
   if (height * height >= best.squared) return false;

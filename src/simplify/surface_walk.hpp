@@ -13,7 +13,7 @@ namespace tinsmith {
 
 /// A triangle as the search wants it. One without area has normal and duals that are no numbers, so that nothing
 /// lies over it.
-struct Facet {
+struct WalkedFacet {
   Vec<3> corner;
   Vec<3> dual1;  // the share of corner 1 is dual1 . (p - corner), as dual2 for corner 2
   Vec<3> dual2;
@@ -26,7 +26,7 @@ struct WalkedSurface {
 
   const Halfedges& mesh;
   const std::vector<Vec<3>>& position;  // by vertex; there may be more
-  std::vector<Facet> facets;            // by triangle
+  std::vector<WalkedFacet> facets;      // by triangle
 };
 
 struct Nearest {

@@ -2,7 +2,8 @@
 """Checks that the folders of src/ include only what their rank allows.
 
 A folder may include its own files and those of folders of a lower rank. An outside library is named in one
-place only. Prints one line for each wrong #include and exits 1.
+place only. A type has one header: two types of one name would break the one definition rule, which no compiler
+sees. Prints one line for each wrong #include or definition and exits 1.
 
 usage: check_layers.py [--self-test] [SOURCE_FOLDER]
 """
@@ -38,6 +39,8 @@ LIBRARIES = {
 # The judge shares no code with what it judges; plain data is no such code.
 FORBIDDEN = {"judge": {"mesh", "triangulate", "simplify", "tile", "stitch", "geometry"}}
 PLAIN_DATA = {"mesh/terrain_mesh.hpp", "geometry/lattice.hpp"}
+
+TYPE = re.compile(r"^(?:struct|class|enum class|union) (\w+)[^;]*$")  # at the file's own level
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
@@ -81,6 +84,19 @@ def wrong_includes(path, folder):
             yield f"{path}:{number}: #include of {header}: {reason}"
 
 
+def repeated_types(headers):
+    first = {}
+    for path in headers:
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            match = TYPE.match(line)
+            if not match:
+                continue
+            here = f"{path}:{number}"
+            there = first.setdefault(match.group(1), here)
+            if there != here:
+                yield f"{here}: {match.group(1)} is another type at {there}: rename one"
+
+
 def check(source):
     """Every complaint about the folders below `source`, and how many files were read."""
     complaints, n_files = [], 0
@@ -91,6 +107,7 @@ def check(source):
         for path in sorted(folder.rglob("*.[ch]pp")):
             n_files += 1
             complaints += wrong_includes(path, folder.name)
+    complaints += repeated_types(sorted(source.rglob("*.hpp")))
     return complaints, n_files
 
 
@@ -142,7 +159,15 @@ def self_test():
         pathlib.Path(name, "attic").mkdir()
         if not check(pathlib.Path(name))[0]:
             failures.append("self-test: a folder without a rank was not found")
-    return failures, len(SAMPLES) + 1
+    for second, n_expected in [("struct Facet {", 1), ("class Facet : public Plane {", 1), ("struct Facet;", 0),
+                               ("  struct Facet {", 0), ("struct Side {", 0)]:
+        with tempfile.TemporaryDirectory() as name:
+            for folder, line in [("judge", "struct Facet {"), ("simplify", second)]:
+                pathlib.Path(name, folder).mkdir()
+                pathlib.Path(name, folder, "one.hpp").write_text(line + "\n")
+            if len(check(pathlib.Path(name))[0]) != n_expected:
+                failures.append(f"self-test: {second} beside struct Facet: expected {n_expected} complaints")
+    return failures, len(SAMPLES) + 6
 
 
 def main(arguments):
