@@ -25,7 +25,7 @@ constexpr std::uint64_t kCacheShare =
     8;  // one part of the memory is left to GDAL, for decoded blocks of the raster
 // More makes nothing faster, since the blocks come from the system's file cache; so large meshes take what small
 // ones take.
-constexpr std::uint64_t kMostWorking = std::uint64_t{256} << 20;
+constexpr std::uint64_t kMostWorking = std::uint64_t{96} << 20;
 
 /// Bytes for the mesh and its blocks; a quarter where the program itself leaves less.
 std::uint64_t working_memory(std::uint64_t memory) {
