@@ -36,9 +36,10 @@ struct SimplifySurfaceOptions {
   bool area_weights = true;
   // Eq. 12-24: no triangle may turn over, nor an edge get normals more than 90 degrees apart where there was none.
   bool half_space = true;
-  // With optimal placement, at the end: vertices and values move to the best fit of the input's vertices, which
-  // takes a tenth to a fifth off the RMS distance and as long as the collapses at most. Places that get farther off
-  // than the farthest was, one way or the other, are drawn back. Nothing turns over; features stay.
+  // With optimal placement, at the end: vertices and values move to the best fit of the input's vertices, and edges
+  // flip where that is nearer to them, which takes a tenth to a fifth off the RMS distance and as long as the
+  // collapses at most. Places that get farther off than the farthest was, one way or the other, are drawn back.
+  // Nothing turns over; features stay.
   bool fit = true;
   QuadricForm quadric = QuadricForm::kGradient;
   // alpha of Cost = E_g + alpha E_c, the geometry in units of its largest extent; 0: attributes follow and cost

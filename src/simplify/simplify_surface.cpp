@@ -101,7 +101,8 @@ class SurfaceSimplifier {
     if (static_cast<double>(n_triangles_) <= target) report_.stopped_by = SimplifyStop::kTriangles;
     geometry_ = {};  // fit needs as much
     queue_ = {};
-    if (report_.collapses > 0 && !samples_.vertex.empty()) fit(mesh_, values_, samples_);
+    // Flips would mend what the half-space test, left out, lets happen.
+    if (report_.collapses > 0 && !samples_.vertex.empty()) fit(mesh_, values_, samples_, options_.half_space);
   }
 
  private:

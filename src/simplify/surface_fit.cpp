@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simplify/surface_flips.hpp"
 #include "simplify/surface_star.hpp"
 #include "simplify/surface_walk.hpp"
 
@@ -16,6 +17,9 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // More of them change the RMS distance by less than 1 %.
 constexpr int kRounds = 3;
+// Before the steps of the first of them edges flip: 1 to 9 % off the RMS distance, most where few triangles are
+// left.
+constexpr int kFlipRounds = 2;
 
 constexpr double kTiny = 1e-9;  // of the largest extent: a sample that near lies on the surface
 
@@ -218,7 +222,15 @@ void draw_back(SurfaceMesh& mesh, const Fit& fit) {
   }
 }
 
-Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples) {
+void flip(const WalkedSurface& input, SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
+  flip_nearer(mesh, {samples.place, samples.weight, fit.triangle, fit.squared},
+              [&](const Vec<3>& place, std::int32_t v) {
+                return nearest(input, place, fit.below[at(v)], v).squared > fit.largest;
+              });
+  find_nearest(mesh, samples, fit);
+}
+
+Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples, bool may_flip) {
   Fit fit;
   fit.triangle.assign(samples.place.size(), kNone);
   fit.squared.assign(samples.place.size(), 0);
@@ -228,6 +240,7 @@ Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples) {
   for (int round = 0; round <= kRounds; ++round) {
     find_nearest(mesh, samples, fit);
     if (round == 0) fit.largest = *std::max_element(fit.squared.begin(), fit.squared.end());
+    if (may_flip && round < kFlipRounds) flip(input, mesh, samples, fit);
     find_astray(mesh, fit);
     if (round == kRounds) find_astray_back(input, mesh, fit);
     draw_back(mesh, fit);
@@ -308,9 +321,9 @@ FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const
   return samples;
 }
 
-void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples) {
+void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_flip) {
   follow_collapses(mesh, samples.vertex);
-  Fit fit = fit_places(mesh, samples);
+  Fit fit = fit_places(mesh, samples, may_flip);
   if (!samples.values.empty()) fit_values(mesh, values, samples, fit);
 }
 

@@ -24,8 +24,8 @@ FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const
 
 /// Moves interior vertices, and then changes their values, so that the samples are nearer to the surface, and their
 /// values to those there. Where a sample got farther off than any was before, or a triangle farther from the input,
-/// the vertices are drawn back half of the way. No triangle turns over, nor away from a neighbour; lines, borders
-/// and seams stay.
-void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples);
+/// the vertices are drawn back half of the way. Where the vertices may move, edges may flip. No triangle turns
+/// over, nor away from a neighbour; lines, borders and seams stay.
+void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_flip);
 
 }  // namespace tinsmith

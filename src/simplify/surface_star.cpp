@@ -92,6 +92,10 @@ void add_gone(const SurfaceMesh& mesh, std::int32_t h, SurfaceStar& star) {
   star.gone.push_back({point(mesh, h), point(mesh, Halfedges::next(h)), point(mesh, Halfedges::previous(h))});
 }
 
+double squared_distance(const Vec<3>& q, const std::array<Vec<3>, 3>& triangle) {
+  return squared_distance_to_triangle(q, triangle[0], triangle[1], triangle[2]);
+}
+
 double squared_distance(const Vec<3>& q, const SurfaceStar& star, const Vec<3>& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const LinkSide& side : star.sides)

@@ -27,6 +27,7 @@ void add_gone(const SurfaceMesh& mesh, std::int32_t h, SurfaceStar& star);
 int count_turned(const SurfaceStar& star);
 int count_turned(const SurfaceStar& star, const Vec<3>& p);
 
+double squared_distance(const Vec<3>& q, const std::array<Vec<3>, 3>& triangle);
 /// From q to the triangles of the star with the vertex at p.
 double squared_distance(const Vec<3>& q, const SurfaceStar& star, const Vec<3>& p);
 /// The farthest from the star as it is, among middles of the triangles and of their inner sides with the vertex at

@@ -1,0 +1,28 @@
+#pragma once
+// Edges of a surface that follow the input better as the other diagonal of their two triangles.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "simplify/surface_mesh.hpp"
+
+namespace tinsmith {
+
+/// Samples of the input, each with the triangle of the surface that is nearest.
+struct SurfaceSamples {
+  const std::vector<Vec<3>>& place;
+  const std::vector<float>& weight;
+  const std::vector<std::int32_t>& triangle;  // its first halfedge; kNone: none
+  const std::vector<float>& squared;          // the distance to it
+};
+
+/// Whether a place of the surface is too far from the input; the vertex v lies nearby.
+using IsFar = std::function<bool(const Vec<3>& place, std::int32_t v)>;
+
+/// Flips edges where that brings the samples of their two triangles nearer: by the sum of the distances to the
+/// power 2.5, with the weights. Features and seams stay, no edge gets normals more than 90 degrees apart that had
+/// them not, and triangles get neither thin nor too far from the input. A triangle takes part in one flip at most.
+void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsFar& is_far);
+
+}  // namespace tinsmith
