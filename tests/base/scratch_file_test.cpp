@@ -1,40 +1,18 @@
 #include "base/scratch_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <array>
-#include <csignal>
 #include <filesystem>
 #include <vector>
 
 #include "base/machine_memory.hpp"
 #include "io/mesh_cases.hpp"
+#include "support/file_size_limit.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
 namespace {
-
-/// Files of this process can't grow beyond it, as if the disk were full.
-class FileLimit {
- public:
-  explicit FileLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileLimit(const FileLimit&) = delete;
-  FileLimit& operator=(const FileLimit&) = delete;
-  ~FileLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = SIG_DFL;
-};
 
 TEST(ScratchFile, GivesBackWhatWasAppended) {
   const ScratchFolder folder;
@@ -72,7 +50,7 @@ TEST(ScratchFile, SaysWhenThereIsNoRoom) {
   const ScratchFolder folder;
   ScratchFile scratch(folder.file(""));
   const std::vector<char> bytes(5000);
-  const FileLimit limit(8000);
+  const test::FileSizeLimit limit(8000);
   EXPECT_NO_THROW(scratch.append(bytes.data(), bytes.size()));
   EXPECT_THROW(scratch.append(bytes.data(), bytes.size()), ResourceError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.file("")));

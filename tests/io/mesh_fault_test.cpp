@@ -2,43 +2,21 @@
 
 #include <sched.h>
 #include <sys/mount.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <csignal>
 #include <stdexcept>
 
 #include "io/mesh_cases.hpp"
 #include "io/mesh_file.hpp"
+#include "support/file_size_limit.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
 namespace {
 
 constexpr std::array kExtensions{".ply", ".obj", ".glb", ".2dm"};
-
-/// No file of this process grows beyond so many bytes while this lives.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(std::size_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
 
 /// A mesh whose vertices or triangles can't be brought after the first block, as when scratch space is damaged.
 class BrokenSurface : public TerrainSurface {
@@ -76,12 +54,12 @@ TEST(MeshFault, KeepsTheOldFileWhereverTheWriteFails) {
     const std::size_t n_files = folder.n_files();
     for (const std::size_t limit :
          {std::size_t{0}, std::size_t{10}, std::size_t{300}, std::size_t{1} << 20, whole - 1}) {
-      const FileSizeLimit full(limit);
+      const test::FileSizeLimit full(limit);
       EXPECT_THROW(write_mesh(path, large, frames()[0]), OutputError) << extension << " at byte " << limit;
       EXPECT_TRUE(bytes_of(path) == old) << extension << " at byte " << limit;
       EXPECT_EQ(folder.n_files(), n_files) << extension << " at byte " << limit;
     }
-    const FileSizeLimit enough(whole);
+    const test::FileSizeLimit enough(whole);
     EXPECT_NO_THROW(write_mesh(path, large, frames()[0])) << extension;
   }
 }
