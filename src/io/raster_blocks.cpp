@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "io/raster_dataset.hpp"
+
 namespace tinsmith {
 namespace {
 
@@ -59,8 +61,8 @@ std::uint64_t cache_for_row(const std::vector<RasterSource>& sources, std::int32
   const std::uint64_t n_touched =
       touched(2LL * window, width, 2LL * window + 2LL * width) / static_cast<std::uint64_t>(width) *
       (touched(window, height, window + 2LL * height) / static_cast<std::uint64_t>(height));
-  const std::uint64_t n_handles = is_shared ? 1 : static_cast<std::uint64_t>(std::max(1, threads));
-  return most * std::min<std::uint64_t>(n_touched, sources.size()) * n_handles;
+  const int n_handles = is_shared ? 1 : std::max(1, (threads + kThreadsPerHandle - 1) / kThreadsPerHandle);
+  return most * std::min<std::uint64_t>(n_touched, sources.size()) * static_cast<std::uint64_t>(n_handles);
 }
 
 bool is_costly_in_windows(const RasterSource& source) { return cache_for_row(source, kUsualWindow) > kCostlyRow; }

@@ -21,10 +21,10 @@ std::uint64_t decoded_samples(const RasterSource& source, const GridRect& rect);
 std::uint64_t cache_for_row(const RasterSource& source, std::int32_t window);
 
 /// The same for several rasters side by side and threads that work on neighbouring windows; more than is needed at
-/// worst, never more than all of the rasters for each thread.
+/// worst, never more than all of the rasters for each dataset that they may have open.
 std::uint64_t cache_for_row(const std::vector<RasterSource>& sources, std::int32_t window, int threads);
 
-/// Whether such a row needs so much that threads should share it: whole-row strips of a wide raster.
+/// Whether such a row needs so much that all threads should share it: whole-row strips of a wide raster.
 bool is_costly_in_windows(const RasterSource& source);
 
 /// Names the first raster that is, how many others are, and the remedy; none when none is.

@@ -95,17 +95,26 @@ DatasetPool::~DatasetPool() {
 }
 
 void DatasetPool::add(const std::string& path, GDALDatasetUniquePtr dataset, Handles handles) {
-  inputs_.push_back({path, handles, false});
+  inputs_.push_back({path, handles, 1, 0});
   give_back(inputs_.size() - 1, std::move(dataset));
+}
+
+bool DatasetPool::may_open(const Input& input) const {
+  if (input.n_lent == 0) return true;
+  return input.handles == Handles::kFew && input.n_lent + input.n_waiting > kThreadsPerHandle * input.n_lent;
 }
 
 GDALDatasetUniquePtr DatasetPool::take_idle(std::size_t input) {
   Input& asked = inputs_[input];
   std::unique_lock lock(mutex_);
-  returned_.wait(lock, [&] { return asked.handles == Handles::kOnePerThread || !asked.is_lent; });
-  asked.is_lent = true;
-  const auto found =
-      std::find_if(idle_.begin(), idle_.end(), [&](const Idle& idle) { return idle.input == input; });
+  auto found = idle_.end();
+  ++asked.n_waiting;
+  returned_.wait(lock, [&] {
+    found = std::find_if(idle_.begin(), idle_.end(), [&](const Idle& idle) { return idle.input == input; });
+    return found != idle_.end() || may_open(asked);
+  });
+  --asked.n_waiting;
+  ++asked.n_lent;
   if (found == idle_.end()) return nullptr;
   GDALDatasetUniquePtr dataset = std::move(found->dataset);
   idle_.erase(found);
@@ -127,7 +136,7 @@ void DatasetPool::give_back(std::size_t input, GDALDatasetUniquePtr dataset) noe
   const QuietGdal quiet;
   std::list<Idle> closed;  // outside the lock
   const std::lock_guard lock(mutex_);
-  inputs_[input].is_lent = false;
+  --inputs_[input].n_lent;
   returned_.notify_all();
   if (dataset == nullptr) return;
   idle_.push_front({input, std::move(dataset)});

@@ -42,7 +42,7 @@ bool RasterInputs::add(const std::string& path, const InputOptions& options) {
     return false;
   }
   const RasterSource& source = sources_.emplace_back(read_source(*dataset, path, options));
-  pool_.add(path, std::move(dataset), is_costly_in_windows(source) ? Handles::kOne : Handles::kOnePerThread);
+  pool_.add(path, std::move(dataset), is_costly_in_windows(source) ? Handles::kOne : Handles::kFew);
   return true;
 }
 
