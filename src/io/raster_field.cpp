@@ -207,4 +207,10 @@ void set_raster_cache(std::uint64_t bytes) {
   GDALSetCacheMax64(static_cast<GIntBig>(std::min(bytes, kMost)));
 }
 
+void empty_raster_cache() {
+  const GIntBig most = GDALGetCacheMax64();
+  GDALSetCacheMax64(0);
+  GDALSetCacheMax64(most);
+}
+
 }  // namespace tinsmith

@@ -56,4 +56,7 @@ class RasterField : public HeightField {
 /// what GDAL_CACHEMAX says, or a twentieth of the machine's.
 void set_raster_cache(std::uint64_t bytes);
 
+/// Frees the blocks that GDAL holds decoded.
+void empty_raster_cache();
+
 }  // namespace tinsmith

@@ -34,6 +34,15 @@ class BlockBins {
     bin.in_memory.push_back(element);
   }
 
+  /// After the last element: when some are in the file all are, so that what is held while blocks are taken does
+  /// not depend on how many elements there were.
+  void finish() {
+    if (scratch_) spill();
+  }
+
+  /// The memory that elements take, in bytes, before the first are taken.
+  std::uint64_t held() const { return bytes_; }
+
   /// The blocks with elements, in their order.
   std::vector<BlockNumber> blocks() const {
     std::vector<BlockNumber> blocks;

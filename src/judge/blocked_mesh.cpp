@@ -54,6 +54,8 @@ void BlockedMesh::add_triangle(const std::array<std::uint64_t, 3>& triangle) {
 void BlockedMesh::close() {
   vertices_.clear();
   colours_.clear();
+  facets_.finish();
+  facet_colours_.finish();
 }
 
 }  // namespace tinsmith

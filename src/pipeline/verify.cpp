@@ -139,6 +139,7 @@ Certificate verify(const std::vector<std::string>& inputs, const std::string& me
   const std::uint64_t share = colours ? working / 7 : working / 4;
   BlockedMesh mesh(grid, field.frame(), {share, share, scratch_folder(mesh_path, options)});
   samples.progress = add_file(mesh_path, samples, mesh);
+  return_free_memory();  // vertices, and facets that went to the disk
   return measure_blocks(mesh, samples, threads, working / 4 * 3);
 }
 
