@@ -159,4 +159,24 @@ bool minimum(const Quadric<N>& quadric, Vec<N>& v, double relative = 1e-3) {
   return solve(quadric, r, relative, v);
 }
 
+/// a at 0, b at 1.
+template <std::size_t N>
+Vec<N> along(const Vec<N>& a, const Vec<N>& b, double t) {
+  Vec<N> p;
+  for (std::size_t i = 0; i < N; ++i) p[i] = a[i] + t * (b[i] - a[i]);
+  return p;
+}
+
+/// The minimum of a quadric on the segment from a to b, where it is a parabola; the middle where it is flat.
+template <std::size_t N>
+Vec<N> minimum_between(const Quadric<N>& quadric, const Vec<N>& a, const Vec<N>& b) {
+  const double at_a = quadric.at(a);
+  const double at_b = quadric.at(b);
+  const double middle = quadric.at(along(a, b, 0.5));
+  const double curvature = 2 * (at_a + at_b - 2 * middle);
+  const double t =
+      curvature > 0 ? std::fmin(std::fmax((3 * at_a + at_b - 4 * middle) / (2 * curvature), 0.0), 1.0) : 0.5;
+  return along(a, b, t);
+}
+
 }  // namespace tinsmith

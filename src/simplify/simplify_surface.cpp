@@ -11,6 +11,7 @@
 #include "simplify/simplified_mesh.hpp"
 #include "simplify/surface_attributes.hpp"
 #include "simplify/surface_fit.hpp"
+#include "simplify/surface_limits.hpp"
 #include "simplify/surface_mesh.hpp"
 #include "simplify/surface_star.hpp"
 #include "simplify/surface_wedges.hpp"
@@ -42,10 +43,6 @@ constexpr double kSquaredNoise = 1e-6;
 constexpr double kOfTrueDistance = 0.6;
 
 constexpr std::size_t kMaxStar = 128;  // triangles around one vertex; more are slow to walk
-
-Vec<3> along(const Vec<3>& a, const Vec<3>& b, double t) {
-  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
-}
 
 struct Collapse {
   double cost = kInfinity;  // E_g + alpha E_c
@@ -88,14 +85,11 @@ class SurfaceSimplifier {
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
       if (h > mesh_.twin[at(h)]) push(h);
     }
-    const auto n_start = static_cast<double>(n_triangles_);
-    std::uint64_t n_steps = 0;
-    while (!queue_.empty() && static_cast<double>(n_triangles_) > target) {
-      const Entry entry = queue_.top();
-      queue_.pop();
-      if (mesh_.origin[at(entry.halfedge)] == kNone || version_[at(entry.halfedge)] != entry.version) continue;
-      try_collapse(entry.halfedge, entry.cost);
-      if (++n_steps % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target));
+    n_start_ = n_triangles_;
+    collapse_down_to(target);
+    if (static_cast<double>(n_triangles_) > target) {
+      push_refused();
+      collapse_down_to(target);
     }
     tell(1);
     if (static_cast<double>(n_triangles_) <= target) report_.stopped_by = SimplifyStop::kTriangles;
@@ -115,6 +109,26 @@ class SurfaceSimplifier {
       return cost != other.cost ? cost > other.cost : halfedge > other.halfedge;
     }
   };
+
+  void collapse_down_to(double target) {
+    const auto n_start = static_cast<double>(n_start_);
+    while (!queue_.empty() && static_cast<double>(n_triangles_) > target) {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (mesh_.origin[at(entry.halfedge)] == kNone || version_[at(entry.halfedge)] != entry.version) continue;
+      try_collapse(entry.halfedge, entry.cost);
+      if (++n_steps_ % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target));
+    }
+  }
+
+  // Once nothing else is left, places are tried that are not the best: a torus of 3600 triangles ends at 36 instead
+  // of 40. Tried at once they make the RMS distance of a brain at 1 % 1.03 times as large.
+  void push_refused() {
+    tries_places_ = true;
+    for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
+      if (mesh_.origin[at(h)] != kNone && is_refused_[at(h)] && edge_of(h) == h) push(h);
+    }
+  }
 
   void tell(double fraction) {
     if (options_.progress && !options_.progress(std::clamp(fraction, 0.0, 1.0), "simplify"))
@@ -193,8 +207,7 @@ class SurfaceSimplifier {
 
   Collapse best(std::int32_t h) {
     if (!may_collapse(h)) return {};
-    Quadric<3> quadric = geometry_[at(mesh_.origin[at(h)])];
-    quadric += geometry_[at(mesh_.destination(h))];
+    const Quadric<3> quadric = geometry(h);
     const int fixed = fixed_end(h);
     if (fixed >= 0) return at_end(h, fixed, quadric);
     const Vec<3>& v0 = point(h);
@@ -202,7 +215,7 @@ class SurfaceSimplifier {
     if (options_.placement != Placement::kSubset) {
       const Quadric<3> of_place = quadric_of_place(h, quadric);
       Vec<3> p;
-      if (options_.placement == Placement::kSegment) return at_place(h, on_segment(of_place, v0, v1), quadric);
+      if (options_.placement == Placement::kSegment) return at_place(h, minimum_between(of_place, v0, v1), quadric);
       if (minimum(of_place, p, kFlat) && is_near(p, v0, v1)) return at_place(h, p, quadric);
     }
     const Collapse first = at_end(h, 0, quadric);
@@ -223,16 +236,6 @@ class SurfaceSimplifier {
     return dot(off, off) <= kReach * kReach * dot(edge, edge);
   }
 
-  // Along the edge the quadric is a parabola of t.
-  static Vec<3> on_segment(const Quadric<3>& quadric, const Vec<3>& v0, const Vec<3>& v1) {
-    const double f0 = quadric.at(v0);
-    const double f1 = quadric.at(v1);
-    const double middle = quadric.at(along(v0, v1, 0.5));
-    const double curvature = 2 * (f0 + f1 - 2 * middle);
-    const double t = curvature > 0 ? std::clamp((3 * f0 + f1 - 4 * middle) / (2 * curvature), 0.0, 1.0) : 0.5;
-    return along(v0, v1, t);
-  }
-
   // ---- steps 5 and 6: candidates by cost, and one collapse
 
   void push(std::int32_t h) {
@@ -251,25 +254,41 @@ class SurfaceSimplifier {
 
   // Unless it is refused, or turns out to cost more than was thought.
   void try_collapse(std::int32_t h, float cost) {
-    const Collapse collapse = best(h);
+    Collapse collapse = best(h);
+    std::uint64_t* refused = refusal(h, collapse);
+    if (refused != nullptr && tries_places_ && collapse.end < 0 && find_legal(h, collapse)) refused = nullptr;
     const double distance = mean_squared_distance(h, collapse.position);
     if (options_.max_cost && distance > *options_.max_cost) {
       report_.stopped_by = SimplifyStop::kCost;
       return;
     }
-    std::uint64_t* refused = refusal(h, collapse);
     if (refused != nullptr) {
       ++*refused;
       is_refused_[at(h)] = 1;
       return;
     }
-    const auto least = static_cast<float>(least_cost(h, collapse.position));
+    const auto least = static_cast<float>(std::max(collapse.cost, least_cost(h, collapse.position)));
     if (least > cost) {
       queue_.push({least, h, version_[at(h)]});
       return;
     }
     report_.last_cost = std::max(report_.last_cost, distance);
     apply(h, collapse);
+  }
+
+  // Where the best place turns a triangle over a place on the edge may not: the cheapest of a few.
+  bool find_legal(std::int32_t h, Collapse& collapse) {
+    const Quadric<3> quadric = geometry(h);
+    bool found = false;
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const bool is_end = t == 0 || t == 1;
+      const Collapse other = is_end ? at_end(h, static_cast<int>(t), quadric)
+                                    : at_place(h, along(point(h), point(Halfedges::next(h)), t), quadric);
+      if ((found && !(other.cost < collapse.cost)) || refusal(h, other) != nullptr) continue;
+      collapse = other;
+      found = true;
+    }
+    return found;
   }
 
   // What counts the reason not to make it; null: there is none.
@@ -416,9 +435,13 @@ class SurfaceSimplifier {
 
   // The planes that the new vertex stands for; attributes count where they are in one quadric with the place.
   Quadric<3> planes(std::int32_t h) const {
+    return has_combined() ? quadric_of_place(h, geometry(h)) : geometry(h);
+  }
+
+  Quadric<3> geometry(std::int32_t h) const {
     Quadric<3> quadric = geometry_[at(mesh_.origin[at(h)])];
     quadric += geometry_[at(mesh_.destination(h))];
-    return has_combined() ? quadric_of_place(h, quadric) : quadric;
+    return quadric;
   }
 
   // From them, in square units of the input.
@@ -441,31 +464,15 @@ class SurfaceSimplifier {
   std::vector<std::uint32_t> mark_;
   std::uint32_t mark_now_ = 0;
   std::size_t n_triangles_;
+  std::size_t n_start_ = 0;
+  std::uint64_t n_steps_ = 0;
+  bool tries_places_ = false;
   FitSamples samples_;  // empty: no fit
   std::priority_queue<Entry> queue_;
   SurfaceStar star_;
   std::vector<std::int32_t> neighbours_;
   std::vector<double> scratch_;
 };
-
-void require_sane(const SimplifySurfaceOptions& options) {
-  if (options.triangles && !(*options.triangles >= 0))
-    throw UsageError("the number of triangles must be 0 or more");
-  if (options.ratio && !(*options.ratio > 0 && *options.ratio <= 1))
-    throw UsageError("the ratio must be above 0 and at most 1");
-  if (options.max_cost && !(*options.max_cost >= 0)) throw UsageError("the largest cost must be 0 or more");
-  if (options.attribute_weight && !(*options.attribute_weight >= 0))
-    throw UsageError("the attributes' weight must be 0 or more");
-  if (options.crease && !(*options.crease >= 0 && *options.crease <= 180))
-    throw UsageError("the crease angle must be from 0 to 180 degrees");
-}
-
-double target_of(const SimplifySurfaceOptions& options, std::size_t n_triangles) {
-  double target = 0;
-  if (options.triangles) target = std::max(target, *options.triangles);
-  if (options.ratio) target = std::max(target, *options.ratio * static_cast<double>(n_triangles));
-  return target;
-}
 
 }  // namespace
 
