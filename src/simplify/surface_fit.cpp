@@ -58,6 +58,7 @@ struct Fit {
   std::vector<Vec<3>> home;             // by vertex: where it was at the start
   std::vector<std::int32_t> below;      // by vertex: as triangle, of the input; kNone: not sought yet
   float largest = 0;                    // squared distance at the start
+  bool is_input_turned = false;         // has edges with normals more than 90 degrees apart
 };
 
 // What is nearly as far off as the farthest sample was at the start counts more than the power 2.5 gives it: this
@@ -85,17 +86,30 @@ void pull(const WalkedSurface& surface, const Nearest& there, double weight, Fit
   }
 }
 
-void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
+// Where each sample lies now; calls found(surface, sample, nearest) for those that lie anywhere.
+template <class Found>
+void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit, Found&& found) {
   const WalkedSurface surface(mesh, mesh.position);
-  fit.pulls.assign(mesh.position.size(), {});
   for (std::size_t i = 0; i < samples.place.size(); ++i) {
     if (!mesh.is_alive(samples.vertex[i])) continue;
     const Nearest there = nearest(surface, samples.place[i], fit.triangle[i], samples.vertex[i]);
     fit.triangle[i] = there.halfedge;
     if (there.halfedge == kNone) continue;
     fit.squared[i] = static_cast<float>(there.squared);
-    pull(surface, there, samples.weight[i], fit);
+    found(surface, i, there);
   }
+}
+
+void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
+  find_nearest(mesh, samples, fit, [](const WalkedSurface&, std::size_t, const Nearest&) {});
+}
+
+// And how they pull at the vertices.
+void find_pulls(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
+  fit.pulls.assign(mesh.position.size(), {});
+  find_nearest(mesh, samples, fit, [&](const WalkedSurface& surface, std::size_t i, const Nearest& there) {
+    pull(surface, there, samples.weight[i], fit);
+  });
 }
 
 // The corners under samples that are farther off than any was at the start.
@@ -107,8 +121,26 @@ void find_astray(const SurfaceMesh& mesh, Fit& fit) {
   }
 }
 
-// The corners of triangles whose middle, or that of a side, is farther from the input than any sample was at the
-// start.
+bool has_turned_edges(const WalkedSurface& surface) {
+  for (std::int32_t h = 0; h < surface.mesh.n_halfedges(); ++h) {
+    const std::int32_t g = surface.mesh.twin[at(h)];
+    if (g != kNone && dot(surface.facets[at(h / 3)].normal, surface.facets[at(g / 3)].normal) < 0) return true;
+  }
+  return false;
+}
+
+// Whether a place of the surface, near the vertex v, is farther from the input than any sample was from the
+// surface at the start, or the normal there turned away from the input's. Where the input is folded itself, the
+// nearest place is often beyond the fold, where the normal says nothing.
+bool is_astray(const WalkedSurface& input, const Fit& fit, const Vec<3>& place, const Vec<3>& normal,
+               std::int32_t v) {
+  const Nearest there = nearest(input, place, fit.below[at(v)], v);
+  if (there.halfedge == kNone) return true;
+  if (there.squared > fit.largest) return true;
+  return !fit.is_input_turned && dot(normal, input.facets[at(there.halfedge / 3)].normal) < 0;
+}
+
+// The corners of triangles that are, by their middles and those of their sides.
 void find_astray_back(const WalkedSurface& input, const SurfaceMesh& mesh, Fit& fit) {
   for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
     if (mesh.origin[at(h)] == kNone) continue;
@@ -116,12 +148,11 @@ void find_astray_back(const WalkedSurface& input, const SurfaceMesh& mesh, Fit& 
     const Vec<3> side = times(a - times(b, -1), 0.5);
     const Vec<3> middle = times(a - times(b, -1) - times(c, -1), 1.0 / 3);
     const std::int32_t v = mesh.origin[at(h)];
-    const auto is_far = [&](const Vec<3>& p) {
-      return nearest(input, p, fit.below[at(v)], v).squared > fit.largest;
-    };
     const bool is_first = h % 3 == 0;
     const bool is_once = h > mesh.twin[at(h)];
-    if (!(is_first && is_far(middle)) && !(is_once && is_far(side))) continue;
+    if (!(is_first && is_astray(input, fit, middle, cross(b - a, c - a), v)) &&
+        !(is_once && nearest(input, side, fit.below[at(v)], v, fit.largest).squared > fit.largest))
+      continue;
     for (const std::int32_t corner : {h, Halfedges::next(h), Halfedges::previous(h)})
       fit.is_astray[at(mesh.origin[at(corner)])] = 1;
   }
@@ -185,7 +216,7 @@ void hold_near_input(const WalkedSurface& input, const Grounded& vertex, Fit& fi
   Nearest there = vertex.below;
   constexpr int kHalves = 3;
   for (int i = 0; i < kHalves; ++i) {
-    there = nearest(input, vertex.p - times(step, -1), there.halfedge, vertex.v);
+    there = nearest(input, vertex.p - times(step, -1), there.halfedge, vertex.v, squared);
     if (there.squared <= squared) {
       fit.below[at(vertex.v)] = there.halfedge;
       return;
@@ -224,10 +255,9 @@ void draw_back(SurfaceMesh& mesh, const Fit& fit) {
 
 void flip(const WalkedSurface& input, SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
   flip_nearer(mesh, {samples.place, samples.weight, fit.triangle, fit.squared},
-              [&](const Vec<3>& place, std::int32_t v) {
-                return nearest(input, place, fit.below[at(v)], v).squared > fit.largest;
+              [&](const Vec<3>& place, const Vec<3>& normal, std::int32_t v) {
+                return is_astray(input, fit, place, normal, v);
               });
-  find_nearest(mesh, samples, fit);
 }
 
 Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples, bool may_flip) {
@@ -237,15 +267,20 @@ Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples, bool may_flip) {
   fit.home = mesh.position;
   fit.below.assign(mesh.position.size(), kNone);
   const WalkedSurface input(samples.triangles, samples.place);
-  for (int round = 0; round <= kRounds; ++round) {
-    find_nearest(mesh, samples, fit);
-    if (round == 0) fit.largest = *std::max_element(fit.squared.begin(), fit.squared.end());
+  fit.is_input_turned = has_turned_edges(input);
+  find_nearest(mesh, samples, fit);
+  fit.largest = *std::max_element(fit.squared.begin(), fit.squared.end());
+  for (int round = 0; round < kRounds; ++round) {
     if (may_flip && round < kFlipRounds) flip(input, mesh, samples, fit);
+    find_pulls(mesh, samples, fit);
     find_astray(mesh, fit);
-    if (round == kRounds) find_astray_back(input, mesh, fit);
     draw_back(mesh, fit);
-    if (round < kRounds) step_all(input, mesh, fit);
+    step_all(input, mesh, fit);
   }
+  find_nearest(mesh, samples, fit);
+  find_astray(mesh, fit);
+  find_astray_back(input, mesh, fit);
+  draw_back(mesh, fit);
   return fit;
 }
 

@@ -140,7 +140,7 @@ bool is_nearer(const SurfaceSamples& samples, const ByTriangle& by_triangle, con
 }
 
 // Samples know where the input is, not where the surface goes.
-bool goes_astray(const Quadrilateral& q, const IsFar& is_far) {
+bool goes_astray(const Quadrilateral& q, const IsAstray& is_astray) {
   const auto middle = [](std::span<const Vec<3>> points) {
     Vec<3> mean{};
     for (const Vec<3>& p : points) {
@@ -149,7 +149,8 @@ bool goes_astray(const Quadrilateral& q, const IsFar& is_far) {
     return mean;
   };
   const std::span<const Vec<3>> dc(q.after[0].data(), 2);
-  return is_far(middle(dc), q.c) || is_far(middle(q.after[0]), q.a) || is_far(middle(q.after[1]), q.b);
+  return is_astray(middle(dc), {}, q.c) || is_astray(middle(q.after[0]), normal_of(q.after[0]), q.a) ||
+         is_astray(middle(q.after[1]), normal_of(q.after[1]), q.b);
 }
 
 // With the wedges of its corners and the marks of its sides.
@@ -181,7 +182,7 @@ void flip(SurfaceMesh& mesh, const Quadrilateral& q) {
 
 }  // namespace
 
-void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsFar& is_far) {
+void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsAstray& is_astray) {
   const ByTriangle by_triangle(samples.triangle, mesh.origin.size() / 3);
   std::vector<std::uint8_t> is_flipped(mesh.origin.size() / 3, 0);
   for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
@@ -190,7 +191,7 @@ void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsFar& 
     const Quadrilateral q(mesh, h);
     if (is_flipped[at(h / 3)] || is_flipped[at(q.g / 3)] || is_seam(mesh, q)) continue;
     if (!is_nearer(samples, by_triangle, q) || !keeps_shape(mesh, q)) continue;
-    if (q.c == q.d || has_edge(mesh, q.c, q.d) || goes_astray(q, is_far)) continue;
+    if (q.c == q.d || has_edge(mesh, q.c, q.d) || goes_astray(q, is_astray)) continue;
     flip(mesh, q);
     is_flipped[at(h / 3)] = is_flipped[at(q.g / 3)] = 1;
   }

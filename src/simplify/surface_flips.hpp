@@ -17,12 +17,13 @@ struct SurfaceSamples {
   const std::vector<float>& squared;          // the distance to it
 };
 
-/// Whether a place of the surface is too far from the input; the vertex v lies nearby.
-using IsFar = std::function<bool(const Vec<3>& place, std::int32_t v)>;
+/// Whether a place of the surface is too far from the input, or the normal there (of any length) turned away from
+/// the input's; the vertex v lies nearby.
+using IsAstray = std::function<bool(const Vec<3>& place, const Vec<3>& normal, std::int32_t v)>;
 
 /// Flips edges where that brings the samples of their two triangles nearer: by the sum of the distances to the
 /// power 2.5, with the weights. Features and seams stay, no edge gets normals more than 90 degrees apart that had
-/// them not, and triangles get neither thin nor too far from the input. A triangle takes part in one flip at most.
-void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsFar& is_far);
+/// them not, and triangles get neither thin nor go astray. A triangle takes part in one flip at most.
+void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsAstray& is_astray);
 
 }  // namespace tinsmith

@@ -65,9 +65,9 @@ bool improve_around(const WalkedSurface& surface, std::int32_t v, const Vec<3>& 
 }
 
 // Across the side, or around the corner, on which the nearest point lies, as long as that comes nearer.
-void descend(const WalkedSurface& surface, const Vec<3>& p, Nearest& best) {
+void descend(const WalkedSurface& surface, const Vec<3>& p, double enough, Nearest& best) {
   constexpr int kMaxSteps = 32;
-  for (int n_steps = 0; n_steps < kMaxSteps; ++n_steps) {
+  for (int n_steps = 0; n_steps < kMaxSteps && best.squared > enough; ++n_steps) {
     std::int32_t k = 0;  // the corner after the side without a share of the opposite one, or the only one
     while (k < 3 && best.share[at(k)] > 0) ++k;
     if (k == 3) return;
@@ -93,13 +93,14 @@ WalkedSurface::WalkedSurface(const Halfedges& edges, const std::vector<Vec<3>>& 
   }
 }
 
-Nearest nearest(const WalkedSurface& surface, const Vec<3>& p, std::int32_t triangle, std::int32_t v) {
+Nearest nearest(const WalkedSurface& surface, const Vec<3>& p, std::int32_t triangle, std::int32_t v,
+                double enough) {
   Nearest best;
   if (triangle != kNone)
     improve(surface, triangle, p, best);
   else
     improve_around(surface, v, p, best);
-  if (best.halfedge != kNone) descend(surface, p, best);
+  if (best.halfedge != kNone) descend(surface, p, enough, best);
   return best;
 }
 

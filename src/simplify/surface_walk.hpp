@@ -36,7 +36,9 @@ struct Nearest {
   Vec<3> off{};                   // from there to the point that was asked for
 };
 
-/// To p, from the triangle whose first halfedge is given; kNone: from those around the vertex v.
-Nearest nearest(const WalkedSurface& surface, const Vec<3>& p, std::int32_t triangle, std::int32_t v);
+/// To p, from the triangle whose first halfedge is given; kNone: from those around the vertex v. Ends where the
+/// squared distance is at most `enough`.
+Nearest nearest(const WalkedSurface& surface, const Vec<3>& p, std::int32_t triangle, std::int32_t v,
+                double enough = 0);
 
 }  // namespace tinsmith

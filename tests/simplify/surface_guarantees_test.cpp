@@ -112,6 +112,7 @@ TEST(SurfaceGuarantees, HardlyATriangleTurnsOverOnFoldedCliffs) {
 TEST(SurfaceGuarantees, TheFitBringsTheSurfaceNearerAndNoPlaceAstray) {
   for (const Surface& surface : {scan(24), torus(60, 30), matterhorn_mesh(100)}) {
     for (const double ratio : {0.2, 0.05}) {
+      SCOPED_TRACE(testing::Message() << surface.triangles.size() << " triangles, " << ratio);
       SimplifySurfaceOptions options;
       options.ratio = ratio;
       const Surface with = simplified(surface, options);
