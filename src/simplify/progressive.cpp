@@ -28,6 +28,7 @@ class Names {
   std::uint32_t vertex(std::int32_t wedge) const { return vertex_[at(wedge)]; }
   std::uint32_t triangle(std::int32_t triangle) const { return triangle_[at(triangle)]; }
   std::uint32_t original(std::int32_t wedge) const { return mesh_.original_vertex[at(wedge)]; }
+  std::uint32_t original_triangle(std::int32_t triangle) const { return mesh_.original_triangle[at(triangle)]; }
 
   std::vector<float> values(std::int32_t wedge) const {
     std::vector<float> all;
@@ -75,7 +76,7 @@ void add_base(const SurfaceMesh& mesh, const Surface& input, Names& names, Progr
     }
     names.add_triangle(h / 3);
     result.base.triangles.push_back(corners);
-    result.original_triangle.push_back(static_cast<std::uint32_t>(h / 3));
+    result.original_triangle.push_back(names.original_triangle(h / 3));
   }
 }
 
@@ -92,7 +93,7 @@ VertexSplit split_of(const SurfaceCollapse& collapse, const Surface& input, Name
     split.vertices.push_back(std::move(vertex));
   }
   for (const SurfaceCollapse::Removed& removed : collapse.removed) {
-    VertexSplit::Triangle triangle{static_cast<std::uint32_t>(removed.triangle), {}};
+    VertexSplit::Triangle triangle{names.original_triangle(removed.triangle), {}};
     for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = names.vertex(removed.wedges[k]);
     names.add_triangle(removed.triangle);
     split.triangles.push_back(triangle);

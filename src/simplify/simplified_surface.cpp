@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "simplify/simplified_mesh.hpp"
 #include "tinsmith/simplify.hpp"
 
@@ -16,12 +18,22 @@ Vec<3> place_of(const SurfaceMesh& mesh, const Surface& input, std::int32_t h) {
           p[2] * mesh.extent + mesh.middle[2]};
 }
 
+// The first halfedges of the triangles that are left, in the input's order.
+std::vector<std::int32_t> in_input_order(const SurfaceMesh& mesh) {
+  std::vector<std::int32_t> order(mesh.original_triangle.size(), kNone);
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    const auto h = static_cast<std::int32_t>(3 * t);
+    if (mesh.origin[at(h)] != kNone) order[mesh.original_triangle[t]] = h;
+  }
+  order.erase(std::remove(order.begin(), order.end(), kNone), order.end());
+  return order;
+}
+
 Surface surface_of(const SurfaceMesh& mesh, const WedgeValues& values, const Surface& input) {
   Surface result;
   std::vector<std::int32_t> name(mesh.original_vertex.size(), kNone);
   std::vector<std::int32_t> wedges;
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
-    if (mesh.origin[at(h)] == kNone) continue;
+  for (const std::int32_t h : in_input_order(mesh)) {
     std::array<std::uint32_t, 3> triangle{};
     for (std::int32_t k = 0; k < 3; ++k) {
       const std::int32_t w = mesh.wedge[at(h + k)];

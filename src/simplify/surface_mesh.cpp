@@ -72,7 +72,7 @@ void lock_coincident(ManifoldSurface& pieces) {
   }
 }
 
-void scale(SurfaceMesh& mesh, const std::vector<std::array<double, 3>>& positions) {
+void find_scale(SurfaceMesh& mesh, const std::vector<std::array<double, 3>>& positions) {
   if (positions.empty()) return;
   Vec<3> low = positions.front();
   Vec<3> high = low;
@@ -85,8 +85,83 @@ void scale(SurfaceMesh& mesh, const std::vector<std::array<double, 3>>& position
   const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   mesh.extent = extent > 0 ? extent : 1;
   for (std::size_t i = 0; i < 3; ++i) mesh.middle[i] = low[i] + (high[i] - low[i]) / 2;
-  mesh.position.reserve(positions.size());
-  for (const auto& p : positions) mesh.position.push_back(scaled(mesh, p));
+}
+
+// Where a place, in the mesh's coordinates, lies along a Z-shaped curve (Morton 1966).
+std::uint64_t place_on_curve(const Vec<3>& p) {
+  constexpr double kSteps = 65535;
+  // Bit i goes to bit 3 i.
+  const auto spread = [](std::uint64_t x) {
+    x = (x | x << 16U) & 0x0000FF0000FFU;
+    x = (x | x << 8U) & 0x00F00F00F00FU;
+    x = (x | x << 4U) & 0x0C30C30C30C3U;
+    return (x | x << 2U) & 0x249249249249U;
+  };
+  std::uint64_t place = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double step = std::clamp((p[i] + 0.5) * kSteps, 0.0, kSteps);
+    place |= spread(static_cast<std::uint64_t>(step)) << i;
+  }
+  return place;
+}
+
+// Along the curve. Returns the new numbers.
+std::vector<std::uint32_t> add_vertices(SurfaceMesh& mesh, const ManifoldSurface& surface) {
+  struct Placed {
+    std::uint64_t place;
+    std::uint32_t vertex;
+  };
+  std::vector<Placed> order;
+  for (std::uint32_t v = 0; v < surface.surface.position.size(); ++v)
+    order.push_back({place_on_curve(scaled(mesh, surface.surface.position[v])), v});
+  std::sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) {
+    return a.place != b.place ? a.place < b.place : a.vertex < b.vertex;
+  });
+  std::vector<std::uint32_t> number(order.size());
+  for (const auto& [place, v] : order) {
+    number[v] = static_cast<std::uint32_t>(mesh.position.size());
+    mesh.position.push_back(scaled(mesh, surface.surface.position[v]));
+    mesh.kind.push_back(surface.is_locked[v] ? SurfaceVertexKind::kLocked : SurfaceVertexKind::kInterior);
+  }
+  return number;
+}
+
+// In the order of their first vertices.
+void add_triangles(SurfaceMesh& mesh, const ManifoldSurface& surface, const std::vector<std::uint32_t>& number) {
+  const auto& originals = surface.surface.triangles;
+  const auto first_vertex = [&](std::uint32_t t) {
+    const auto& [a, b, c] = originals[t];
+    return std::min({number[a], number[b], number[c]});
+  };
+  std::vector<std::uint32_t> next(number.size() + 1, 0);
+  for (std::uint32_t t = 0; t < originals.size(); ++t) ++next[first_vertex(t) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  mesh.original_triangle.resize(originals.size());
+  for (std::uint32_t t = 0; t < originals.size(); ++t) mesh.original_triangle[next[first_vertex(t)]++] = t;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  triangles.reserve(originals.size());
+  for (const std::uint32_t t : mesh.original_triangle) {
+    const auto& [a, b, c] = originals[t];
+    triangles.push_back({static_cast<std::int32_t>(number[a]), static_cast<std::int32_t>(number[b]),
+                         static_cast<std::int32_t>(number[c])});
+  }
+  connect(mesh, triangles, mesh.position.size());
+}
+
+// In the order of their vertices. The pieces have the same triangles in the same order.
+void add_wedges(SurfaceMesh& mesh, const ManifoldSurface& pieces) {
+  std::vector<std::int32_t> number(pieces.original_vertex.size(), kNone);
+  mesh.wedge.resize(mesh.origin.size());
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh.position.size()); ++v) {
+    for_each_out(mesh, v, [&](std::int32_t h) {
+      const std::uint32_t corner = pieces.surface.triangles[mesh.original_triangle[at(h / 3)]][at(h % 3)];
+      if (number[corner] == kNone) {
+        number[corner] = static_cast<std::int32_t>(mesh.original_vertex.size());
+        mesh.original_vertex.push_back(pieces.original_vertex[corner]);
+      }
+      mesh.wedge[at(h)] = number[corner];
+    });
+  }
 }
 
 // Every vertex keeps one of its wedges.
@@ -161,22 +236,10 @@ SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects) {
     whole = pieces;
   }
   SurfaceMesh mesh;
-  scale(mesh, whole.surface.position);
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  triangles.reserve(whole.surface.triangles.size());
-  for (const auto& [a, b, c] : whole.surface.triangles)
-    triangles.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c)});
-  connect(mesh, triangles, mesh.position.size());
+  find_scale(mesh, whole.surface.position);
+  add_triangles(mesh, whole, add_vertices(mesh, whole));
   mesh.mean_area = mean_area(mesh);
-  mesh.wedge.reserve(mesh.origin.size());
-  for (const auto& t : pieces.surface.triangles) {
-    for (const std::uint32_t v : t) mesh.wedge.push_back(static_cast<std::int32_t>(v));
-  }
-  mesh.original_vertex = pieces.original_vertex;
-  mesh.kind.assign(mesh.position.size(), SurfaceVertexKind::kInterior);
-  for (std::size_t v = 0; v < mesh.kind.size(); ++v) {
-    if (whole.is_locked[v]) mesh.kind[v] = SurfaceVertexKind::kLocked;
-  }
+  add_wedges(mesh, pieces);
   return mesh;
 }
 

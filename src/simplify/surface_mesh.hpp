@@ -32,6 +32,8 @@ struct SurfaceMesh : Halfedges {
   std::vector<std::int32_t> wedge;       // of the corner at its origin
   // by wedge
   std::vector<std::uint32_t> original_vertex;  // the input's
+  // by triangle: in this order they are in the input
+  std::vector<std::uint32_t> original_triangle;
 
   Vec<3> middle{};
   double extent = 1;
@@ -45,7 +47,8 @@ Vec<3> scaled(const SurfaceMesh& mesh, const Vec<3>& p);
 double triangle_area(const SurfaceMesh& mesh, std::int32_t h);
 
 /// The surface welded by place, so far as that leaves it a manifold with borders, with its defects mended and
-/// counted.
+/// counted. Vertices come along a space-filling curve, triangles and wedges by them: what lies together in space
+/// lies together in memory.
 SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects);
 
 /// Parts that share no edge.
