@@ -20,6 +20,10 @@ bool make_unit(Vec<3>& v) {
   return true;
 }
 
+// Where a border goes nothing else holds it: with 1 the largest distance of a rough sheet at 5 and 1 % is 1.45
+// and 1.35 times as large.
+constexpr double kBorderWeight = 8;
+
 // On the edge of h, perpendicular to its triangle with the unit normal n.
 Quadric<3> feature_plane(const SurfaceMesh& mesh, std::int32_t h, const Vec<3>& n, bool area_weights) {
   const Vec<3> edge = point(mesh, Halfedges::next(h)) - point(mesh, h);
@@ -28,7 +32,8 @@ Quadric<3> feature_plane(const SurfaceMesh& mesh, std::int32_t h, const Vec<3>& 
   // As much as two triangles that stand on the edge.
   const double area = dot(edge, edge) + 2 * kMeanAreas * mesh.mean_area;
   Quadric<3> quadric;
-  quadric.add_plane(across, point(mesh, h), area_weights ? area : 1);
+  const double weight = mesh.is_border_edge(h) ? kBorderWeight : 1;
+  quadric.add_plane(across, point(mesh, h), weight * (area_weights ? area : 1));
   return quadric;
 }
 
