@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
-#include "io/raster_dataset.hpp"
-
 namespace tinsmith {
 namespace {
 
 constexpr std::int32_t kUsualWindow = 192;
+
+// Blocks that a VRT says it has are often smaller than those of its sources.
+constexpr std::int32_t kLeastStripe = 256;
 
 // Strips of 65536 floats: twice of anything that is published as one strip-wise tile of a DEM.
 constexpr std::uint64_t kCostlyRow = std::uint64_t{64} << 20;
@@ -39,10 +40,25 @@ std::uint64_t decoded_samples(const RasterSource& source, const GridRect& rect) 
   return static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
 }
 
-std::uint64_t cache_for_row(const RasterSource& source, std::int32_t window) {
+std::vector<StripePart> stripes_of(const RasterSource& source, const GridRect& rect) {
+  const std::int64_t block = source.block_width;
+  const std::int64_t width = (std::max<std::int64_t>(kLeastStripe, block) + block - 1) / block * block;
+  const std::int64_t end = std::int64_t{rect.x0} + rect.width;
+  std::vector<StripePart> parts;
+  for (std::int64_t x = rect.x0; x < end;) {
+    const std::int64_t column = x / width;
+    const std::int64_t next = std::min(end, (column + 1) * width);
+    parts.push_back({static_cast<std::size_t>(column) % kStripes,
+                     {static_cast<std::int32_t>(x), rect.y0, static_cast<std::int32_t>(next - x), rect.height}});
+    x = next;
+  }
+  return parts;
+}
+
+std::uint64_t cache_for_row(const RasterSource& source, std::int32_t window, int threads) {
   const auto bytes = static_cast<std::uint64_t>(GDALGetDataTypeSizeBytes(source.type));
-  // A block may lie in two windows: the one being read and the next.
-  return touched(2LL * window, source.block_width, source.width) *
+  // A block may lie in two windows: one being read and the next.
+  return touched((std::int64_t{threads} + 1) * window, source.block_width, source.width) *
          touched(window, source.block_height, source.height) * bytes;
 }
 
@@ -50,22 +66,22 @@ std::uint64_t cache_for_row(const std::vector<RasterSource>& sources, std::int32
   std::uint64_t most = 0;
   std::int32_t width = window;
   std::int32_t height = window;
-  bool is_shared = true;
   for (const RasterSource& source : sources) {
-    most = std::max(most, cache_for_row(source, window));
+    most = std::max(most, cache_for_row(source, window, threads));
     width = std::min(width, source.width);
     height = std::min(height, source.height);
-    is_shared = is_shared && is_costly_in_windows(source);
   }
-  // The rasters that two windows touch, were all as small as the smallest.
+  // The rasters that these windows touch, were all as small as the smallest.
+  const std::int64_t across = (std::int64_t{threads} + 1) * window;
   const std::uint64_t n_touched =
-      touched(2LL * window, width, 2LL * window + 2LL * width) / static_cast<std::uint64_t>(width) *
+      touched(across, width, across + 2LL * width) / static_cast<std::uint64_t>(width) *
       (touched(window, height, window + 2LL * height) / static_cast<std::uint64_t>(height));
-  const int n_handles = is_shared ? 1 : std::max(1, (threads + kThreadsPerHandle - 1) / kThreadsPerHandle);
-  return most * std::min<std::uint64_t>(n_touched, sources.size()) * static_cast<std::uint64_t>(n_handles);
+  return most * std::min<std::uint64_t>(n_touched, sources.size());
 }
 
-bool is_costly_in_windows(const RasterSource& source) { return cache_for_row(source, kUsualWindow) > kCostlyRow; }
+bool is_costly_in_windows(const RasterSource& source) {
+  return cache_for_row(source, kUsualWindow, 1) > kCostlyRow;
+}
 
 std::optional<std::string> remark_on_blocks(const std::vector<RasterSource>& sources) {
   const auto first = std::find_if(sources.begin(), sources.end(), is_costly_in_windows);

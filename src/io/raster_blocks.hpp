@@ -16,15 +16,29 @@ GridRect block_around(const RasterSource& source, std::int32_t x0, std::int32_t 
 /// The samples that are decoded for a rectangle.
 std::uint64_t decoded_samples(const RasterSource& source, const GridRect& rect);
 
-/// The cache in bytes that decodes no block of the raster twice while one thread goes through a row of windows of
-/// `window` samples from left to right.
-std::uint64_t cache_for_row(const RasterSource& source, std::int32_t window);
+/// Columns of blocks are dealt out to so many stripes by turns, each with a dataset of its own: threads on
+/// neighbouring windows seldom wait for each other, and no block is decoded for two of them. With a dataset for
+/// each thread most blocks were decoded twice; beside one for all, two threads take 0.93 of the time over generated
+/// mountains at 5.4 m, 0.90 over a plane.
+inline constexpr std::size_t kStripes = 4;
 
-/// The same for several rasters side by side and threads that work on neighbouring windows; more than is needed at
-/// worst, never more than all of the rasters for each dataset that they may have open.
+/// A part of a rectangle that lies in one stripe.
+struct StripePart {
+  std::size_t stripe;
+  GridRect rect;
+};
+
+/// The parts of a rectangle from left to right.
+std::vector<StripePart> stripes_of(const RasterSource& source, const GridRect& rect);
+
+/// The cache in bytes that decodes no block of the raster twice while threads on neighbouring windows of `window`
+/// samples go through a row from left to right.
+std::uint64_t cache_for_row(const RasterSource& source, std::int32_t window, int threads);
+
+/// The same for several rasters side by side; more than is needed at worst, never more than all of the rasters.
 std::uint64_t cache_for_row(const std::vector<RasterSource>& sources, std::int32_t window, int threads);
 
-/// Whether such a row needs so much that all threads should share it: whole-row strips of a wide raster.
+/// Whether such a row needs too much even for one thread: whole-row strips of a wide raster.
 bool is_costly_in_windows(const RasterSource& source);
 
 /// Names the first raster that is, how many others are, and the remedy; none when none is.

@@ -94,52 +94,43 @@ DatasetPool::~DatasetPool() {
   idle_.clear();
 }
 
-void DatasetPool::add(const std::string& path, GDALDatasetUniquePtr dataset, Handles handles) {
-  inputs_.push_back({path, handles, 1, 0});
-  give_back(inputs_.size() - 1, std::move(dataset));
+void DatasetPool::add(const std::string& path, GDALDatasetUniquePtr dataset) {
+  inputs_.push_back({path, {}});
+  give_back({inputs_.size() - 1, 0}, std::move(dataset));
 }
 
-bool DatasetPool::may_open(const Input& input) const {
-  if (input.n_lent == 0) return true;
-  return input.handles == Handles::kFew && input.n_lent + input.n_waiting > kThreadsPerHandle * input.n_lent;
-}
-
-GDALDatasetUniquePtr DatasetPool::take_idle(std::size_t input) {
-  Input& asked = inputs_[input];
+GDALDatasetUniquePtr DatasetPool::take_idle(const Place& place) {
+  bool& is_lent = inputs_[place.input].is_lent[place.stripe];
   std::unique_lock lock(mutex_);
-  auto found = idle_.end();
-  ++asked.n_waiting;
-  returned_.wait(lock, [&] {
-    found = std::find_if(idle_.begin(), idle_.end(), [&](const Idle& idle) { return idle.input == input; });
-    return found != idle_.end() || may_open(asked);
-  });
-  --asked.n_waiting;
-  ++asked.n_lent;
+  returned_.wait(lock, [&] { return !is_lent; });
+  is_lent = true;
+  const auto found =
+      std::find_if(idle_.begin(), idle_.end(), [&](const Idle& idle) { return idle.place == place; });
   if (found == idle_.end()) return nullptr;
   GDALDatasetUniquePtr dataset = std::move(found->dataset);
   idle_.erase(found);
   return dataset;
 }
 
-GDALDatasetUniquePtr DatasetPool::take(std::size_t input) {
-  GDALDatasetUniquePtr dataset = take_idle(input);
+GDALDatasetUniquePtr DatasetPool::take(const Place& place) {
+  GDALDatasetUniquePtr dataset = take_idle(place);
   if (dataset != nullptr) return dataset;
   try {
-    return open_raster(inputs_[input].path);
+    return open_raster(inputs_[place.input].path);
   } catch (...) {
-    give_back(input, nullptr);
+    give_back(place, nullptr);
     throw;
   }
 }
 
-void DatasetPool::give_back(std::size_t input, GDALDatasetUniquePtr dataset) noexcept {
+void DatasetPool::give_back(const Place& place, GDALDatasetUniquePtr dataset) noexcept {
   const QuietGdal quiet;
   std::list<Idle> closed;  // outside the lock
   const std::lock_guard lock(mutex_);
-  --inputs_[input].n_lent;
+  inputs_[place.input].is_lent[place.stripe] = false;
   returned_.notify_all();
   if (dataset == nullptr) return;
-  idle_.push_front({input, std::move(dataset)});
+  idle_.push_front({place, std::move(dataset)});
   if (idle_.size() > max_idle_) closed.splice(closed.begin(), idle_, std::prev(idle_.end()));
 }
 

@@ -22,6 +22,10 @@ void for_each_block(const RasterSource& source, const GridRect& rect, Function f
   }
 }
 
+std::vector<double> voids(const GridRect& rect) {
+  return std::vector<double>(static_cast<std::size_t>(rect.area()), std::numeric_limits<double>::quiet_NaN());
+}
+
 void copy_part(const std::vector<double>& heights, const GridRect& part, const GridRect& rect,
                std::vector<double>& z) {
   for (std::int64_t row = 0; row < part.height; ++row) {
@@ -41,8 +45,8 @@ bool RasterInputs::add(const std::string& path, const InputOptions& options) {
     unopened_.push_back(path);
     return false;
   }
-  const RasterSource& source = sources_.emplace_back(read_source(*dataset, path, options));
-  pool_.add(path, std::move(dataset), is_costly_in_windows(source) ? Handles::kOne : Handles::kFew);
+  sources_.push_back(read_source(*dataset, path, options));
+  pool_.add(path, std::move(dataset));
   return true;
 }
 
@@ -62,7 +66,7 @@ auto RasterInputs::noting_damage(std::size_t input, Ask ask) const {
 bool RasterInputs::is_surely_void(std::size_t input, const GridRect& rect) const {
   if (!sources_[input].knows_voids || is_damaged(input)) return false;
   try {
-    const DatasetPool::Loan dataset(pool_, input);
+    const DatasetPool::Loan dataset(pool_, input, stripes_of(sources_[input], rect).front().stripe);
     return noting_damage(input, [&] { return tinsmith::is_surely_void(*dataset, sources_[input], rect); });
   } catch (const UnreadableError&) {
     if (!skip_) throw;
@@ -73,24 +77,38 @@ bool RasterInputs::is_surely_void(std::size_t input, const GridRect& rect) const
 std::vector<double> RasterInputs::read(std::size_t input, const GridRect& rect) const {
   if (is_damaged(input)) return read_sound_blocks(input, rect);
   try {
-    const DatasetPool::Loan dataset(pool_, input);
-    return noting_damage(input, [&] {
-      const bool is_void = tinsmith::is_surely_void(*dataset, sources_[input], rect);
-      return is_void ? std::vector<double>() : read_heights(*dataset, sources_[input], rect);
-    });
+    return read_stripes(input, rect);
   } catch (const UnreadableError&) {
     if (!skip_) throw;
   }
   return read_sound_blocks(input, rect);
 }
 
+std::vector<double> RasterInputs::read_stripes(std::size_t input, const GridRect& rect) const {
+  const RasterSource& source = sources_[input];
+  const std::vector<StripePart> parts = stripes_of(source, rect);
+  std::vector<double> z;
+  for (const StripePart& part : parts) {
+    const DatasetPool::Loan dataset(pool_, input, part.stripe);
+    std::vector<double> heights = noting_damage(input, [&] {
+      const bool is_void = tinsmith::is_surely_void(*dataset, source, part.rect);
+      return is_void ? std::vector<double>() : read_heights(*dataset, source, part.rect);
+    });
+    if (parts.size() == 1) return heights;
+    if (heights.empty()) continue;
+    if (z.empty()) z = voids(rect);
+    copy_part(heights, part.rect, rect, z);
+  }
+  return z;
+}
+
 std::vector<double> RasterInputs::read_sound_blocks(std::size_t input, const GridRect& rect) const {
   const RasterSource& source = sources_[input];
-  std::vector<double> z(static_cast<std::size_t>(rect.area()), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> z = voids(rect);
   for_each_block(source, rect, [&](const GridRect& block) {
     if (!is_readable(input, block)) return;
     const GridRect part = intersection(block, rect);
-    const DatasetPool::Loan dataset(pool_, input);
+    const DatasetPool::Loan dataset(pool_, input, stripes_of(source, part).front().stripe);
     copy_part(read_heights(*dataset, source, part), part, rect, z);
   });
   return z;

@@ -50,6 +50,7 @@ class RasterInputs {
 
   template <typename Ask>
   auto noting_damage(std::size_t input, Ask ask) const;
+  std::vector<double> read_stripes(std::size_t input, const GridRect& rect) const;
   std::vector<double> read_sound_blocks(std::size_t input, const GridRect& rect) const;
   bool is_readable(std::size_t input, const GridRect& block) const;
   bool is_damaged(std::size_t input) const;

@@ -1,14 +1,14 @@
-// Threads share open datasets, so that no block is decoded for each of them, but not all threads one.
+// No two threads decode the same block, and neighbours seldom wait for each other.
 
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <future>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "io/raster_blocks.hpp"
 #include "io/raster_dataset.hpp"
 
 namespace tinsmith {
@@ -21,85 +21,57 @@ std::string write_raster(const std::string& name) {
   return path;
 }
 
-// Threads that each want a dataset of input 0 and keep it until released.
-class Borrowers {
- public:
-  Borrowers(DatasetPool& pool, int n) {
-    for (int i = 0; i < n; ++i) threads_.emplace_back([this, &pool] { borrow(pool); });
-  }
-  ~Borrowers() {
-    release();
-    for (std::thread& thread : threads_) thread.join();
-  }
-  Borrowers(const Borrowers&) = delete;
-  Borrowers& operator=(const Borrowers&) = delete;
-
-  GDALDataset* first() { return first_.get_future().get(); }
-  int n_served() const { return n_served_; }
-  void release() {
-    if (!is_released_.exchange(true)) release_.set_value();
-  }
-
- private:
-  void borrow(DatasetPool& pool) {
-    const std::shared_future<void> released = released_;
-    const DatasetPool::Loan loan(pool, 0);
-    if (n_served_++ == 0) first_.set_value(&*loan);
-    released.wait();
-  }
-
-  std::promise<void> release_;
-  std::shared_future<void> released_ = release_.get_future();
-  std::atomic<bool> is_released_ = false;
-  std::promise<GDALDataset*> first_;
-  std::atomic<int> n_served_ = 0;
-  std::vector<std::thread> threads_;
-};
-
-TEST(DatasetPool, OpensAnotherDatasetForEveryFourThreadsThatWantOneAtOnce) {
+TEST(DatasetPool, HasOneDatasetForEachStripeWhichOneThreadMayHold) {
   DatasetPool pool;
-  const std::string path = write_raster("shared.tif");
-  pool.add(path, open_raster(path), Handles::kFew);
-  auto held = std::make_unique<DatasetPool::Loan>(pool, 0);
-  Borrowers borrowers(pool, kThreadsPerHandle);
-  EXPECT_NE(borrowers.first(), &**held);  // ends only if the fifth thread is served
-  EXPECT_EQ(borrowers.n_served(), 1) << "the others wait";
-  held.reset();
-}
-
-TEST(DatasetPool, LendsOneDatasetAfterTheOther) {
-  DatasetPool pool;
-  const std::string path = write_raster("alone.tif");
-  pool.add(path, open_raster(path), Handles::kOne);
-  auto held = std::make_unique<DatasetPool::Loan>(pool, 0);
-  GDALDataset* const only = &**held;
-  Borrowers borrowers(pool, 2 * kThreadsPerHandle);
-  EXPECT_EQ(borrowers.n_served(), 0);
-  held.reset();
-  EXPECT_EQ(borrowers.first(), only);
+  const std::string path = write_raster("stripes.tif");
+  pool.add(path, open_raster(path));
+  auto first = std::make_unique<DatasetPool::Loan>(pool, 0, 0);
+  GDALDataset* const dataset = &**first;
+  std::vector<std::unique_ptr<DatasetPool::Loan>> others;
+  for (std::size_t stripe = 1; stripe < kStripes; ++stripe) {
+    others.push_back(std::make_unique<DatasetPool::Loan>(pool, 0, stripe));
+    EXPECT_NE(&**others.back(), dataset);
+  }
+  std::atomic<bool> is_served = false;
+  std::thread waiting([&] {
+    const DatasetPool::Loan loan(pool, 0, 0);
+    is_served = true;
+    EXPECT_EQ(&*loan, dataset);
+  });
+  EXPECT_FALSE(is_served);
+  first.reset();
+  waiting.join();
+  EXPECT_TRUE(is_served);
 }
 
 TEST(DatasetPool, LendsAgainAfterAFileCouldNotBeOpened) {
   DatasetPool pool;
   const std::string path = write_raster("gone.tif");
-  pool.add(path, open_raster(path), Handles::kFew);
+  pool.add(path, open_raster(path));
   VSIUnlink(path.c_str());
-  auto held = std::make_unique<DatasetPool::Loan>(pool, 0);
-  std::atomic<int> n_refused = 0;
-  std::vector<std::thread> threads;
-  for (int i = 0; i < kThreadsPerHandle; ++i) {
-    threads.emplace_back([&] {
-      try {
-        const DatasetPool::Loan loan(pool, 0);
-      } catch (const UnreadableError&) {
-        ++n_refused;
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(DatasetPool::Loan(pool, 0, 1), UnreadableError);
+  EXPECT_NO_THROW(DatasetPool::Loan(pool, 0, 0));
+}
+
+// For any blocks: the parts cover the rectangle from left to right, no block lies in two stripes.
+TEST(Stripes, CutRectanglesWhereNoBlockIsCut) {
+  for (const std::int32_t block : {1, 100, 128, 256, 300, 1000, 5000}) {
+    RasterSource source;
+    source.width = source.height = 5000;
+    source.block_width = block;
+    for (const GridRect& rect : {GridRect{0, 0, 5000, 10}, GridRect{777, 5, 194, 194}, GridRect{4999, 0, 1, 1}}) {
+      std::int32_t x = rect.x0;
+      for (const auto& [stripe, part] : stripes_of(source, rect)) {
+        EXPECT_LT(stripe, kStripes);
+        EXPECT_EQ(part, (GridRect{x, rect.y0, part.width, rect.height}));
+        if (x > rect.x0) EXPECT_EQ(x % block, 0) << "blocks of " << block;
+        x += part.width;
+        for (std::int32_t inside = part.x0; inside < x; ++inside)
+          EXPECT_EQ(stripes_of(source, {inside, 0, 1, 1}).front().stripe, stripe);
       }
-    });
+      EXPECT_EQ(x, rect.x0 + rect.width);
+    }
   }
-  while (n_refused == 0) std::this_thread::yield();
-  held.reset();
-  for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(n_refused, 1) << "who waited was served by the one that is open";
 }
 
 }  // namespace
