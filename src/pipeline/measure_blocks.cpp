@@ -49,8 +49,9 @@ class Admission {
   std::uint64_t bytes_;
 };
 
-// Blocks of all sizes come and go: over a thousand of them what the allocator keeps grows by a tenth of all memory.
-constexpr std::size_t kBlocksBetweenTrims = 32;
+// Blocks of all sizes come and go: over thousands of them what the allocator keeps grows by a twelfth of all
+// memory.
+constexpr std::size_t kBlocksBetweenTrims = 4;
 
 class BlockQueue {
  public:
