@@ -74,9 +74,11 @@ class BlockQueue {
 
  private:
   void block_done() {
-    const std::lock_guard lock(mutex_);
-    report_progress(samples_, static_cast<double>(++n_done_) / static_cast<double>(blocks_.size()));
-    if (n_done_ % kBlocksBetweenTrims == 0) return_free_memory();
+    std::unique_lock lock(mutex_);
+    const std::size_t n_done = ++n_done_;
+    report_progress(samples_, static_cast<double>(n_done) / static_cast<double>(blocks_.size()));
+    lock.unlock();
+    if (n_done % kBlocksBetweenTrims == 0) return_free_memory();
   }
 
   BlockedMesh& mesh_;
