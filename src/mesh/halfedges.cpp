@@ -1,7 +1,6 @@
 #include "mesh/halfedges.hpp"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "base/check.hpp"
@@ -12,45 +11,29 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-struct Leaving {
-  std::int32_t destination;
-  std::int32_t halfedge;
-};
-
-// Halfedges by origin, as one array with offsets.
-struct Outgoing {
-  std::vector<std::int32_t> first;
-  std::vector<Leaving> leaving;
-
-  std::span<const Leaving> of(std::int32_t v) const {
-    return {leaving.data() + first[at(v)], leaving.data() + first[at(v) + 1]};
-  }
-};
-
-Outgoing outgoing_of(const Halfedges& mesh) {
-  Outgoing result;
-  result.first.assign(mesh.out.size() + 1, 0);
-  result.leaving.resize(mesh.origin.size());
-  for (const std::int32_t v : mesh.origin) ++result.first[at(v) + 1];
-  for (std::size_t v = 0; v < mesh.out.size(); ++v) result.first[v + 1] += result.first[v];
-  std::vector<std::int32_t> fill(result.first.begin(), result.first.end() - 1);
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h)
-    result.leaving[at(fill[at(mesh.origin[at(h)])]++)] = {mesh.destination(h), h};
-  return result;
+bool are_opposite(const Halfedges& mesh, std::int32_t h, std::int32_t g) {
+  return mesh.origin[at(h)] == mesh.destination(g) && mesh.destination(h) == mesh.origin[at(g)];
 }
 
-void pair_twins(Halfedges& mesh, const Outgoing& outgoing) {
-  mesh.twin.assign(mesh.origin.size(), kNone);
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh.out.size()); ++v) {
-    for (const Leaving& there : outgoing.of(v)) {
-      if (there.destination < v) continue;
-      for (const Leaving& back : outgoing.of(there.destination)) {
-        if (back.destination != v) continue;
-        mesh.twin[at(there.halfedge)] = back.halfedge;
-        mesh.twin[at(back.halfedge)] = there.halfedge;
-        break;
-      }
+// Until its twin comes a halfedge waits in a list of its edge's smaller vertex, linked by what will be the twins.
+void pair_twins(Halfedges& mesh) {
+  mesh.twin.resize(mesh.origin.size());
+  std::vector<std::int32_t> waiting(mesh.out.size(), kNone);
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
+    std::int32_t& first = waiting[at(std::min(mesh.origin[at(h)], mesh.destination(h)))];
+    std::int32_t* link = &first;
+    while (*link != kNone && !are_opposite(mesh, h, *link)) link = &mesh.twin[at(*link)];
+    const std::int32_t g = *link;
+    if (g == kNone) {
+      mesh.twin[at(h)] = std::exchange(first, h);
+    } else {
+      *link = mesh.twin[at(g)];
+      mesh.twin[at(g)] = h;
+      mesh.twin[at(h)] = g;
     }
+  }
+  for (std::int32_t h : waiting) {
+    while (h != kNone) h = std::exchange(mesh.twin[at(h)], kNone);
   }
 }
 
@@ -94,15 +77,19 @@ std::vector<std::int32_t> connect(Halfedges& mesh, const std::vector<std::array<
   mesh.origin.reserve(triangles.size() * 3);
   for (const auto& t : triangles) mesh.origin.insert(mesh.origin.end(), t.begin(), t.end());
   mesh.out.assign(n_vertices, kNone);
-  const Outgoing outgoing = outgoing_of(mesh);
-  pair_twins(mesh, outgoing);
+  pair_twins(mesh);
+  std::vector<std::int32_t> degree(n_vertices, 0);
+  for (std::int32_t h = mesh.n_halfedges(); h-- > 0;) {
+    const std::int32_t v = mesh.origin[at(h)];
+    mesh.out[at(v)] = h;
+    ++degree[at(v)];
+  }
   std::vector<std::int32_t> with_more_fans;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(n_vertices); ++v) {
-    const std::span<const Leaving> leaving = outgoing.of(v);
-    if (leaving.empty()) continue;
-    const Fan fan = fan_of(mesh, leaving.front().halfedge);
+    if (!mesh.is_alive(v)) continue;
+    const Fan fan = fan_of(mesh, mesh.out[at(v)]);
     mesh.out[at(v)] = fan.start;
-    if (fan.size != leaving.size()) with_more_fans.push_back(v);
+    if (fan.size != degree[at(v)]) with_more_fans.push_back(v);
   }
   return with_more_fans;
 }

@@ -50,7 +50,7 @@ std::vector<std::int32_t> connect(Halfedges& mesh, const std::vector<std::array<
 
 struct Fan {
   std::int32_t start;  // clockwise as far as it goes; of a closed fan the smallest halfedge
-  std::size_t size;    // in triangles
+  std::int32_t size;   // in triangles
 };
 
 /// The fan that h belongs to.
