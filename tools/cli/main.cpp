@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 
+#include "base/machine_memory.hpp"
 #include "interrupt.hpp"
 #include "text.hpp"
 #include "tinsmith/error.hpp"
@@ -71,6 +72,7 @@ const char* way_to_less_memory(const std::string& verb) {
 }
 
 int run_program(int argc, char** argv) {
+  keep_freed_memory();
   CLI::App program("", "tinsmith");
   set_manual(program, kManual);
   program.set_version_flag("--version", std::string("tinsmith ") + version());
