@@ -30,11 +30,11 @@ struct EdgeEnd {
   LatticePoint position;
   double height = 0;
   VertexKind kind = VertexKind::kInterior;
-  const VerticalQuadric* quadric = nullptr;
+  const VerticalQuadric<float>* quadric = nullptr;
 };
 
 /// The quadrics of a vertex, one for each channel of its colour, in height units.
-using ChannelQuadrics = std::array<VerticalQuadric, kMaxChannels>;
+using ChannelQuadrics = std::array<VerticalQuadric<float>, kMaxChannels>;
 
 /// The colour of an edge, in height units.
 struct EdgeColour {

@@ -166,7 +166,7 @@ bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, 
   return true;
 }
 
-bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h, std::vector<double>& squared_error) {
+bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h, std::vector<float>& squared_error) {
   if (mesh.is_border_edge(h)) return false;
   const std::int32_t g = mesh.twin[at(h)];
   const std::int32_t va = mesh.origin[at(h)];
@@ -180,9 +180,9 @@ bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h, st
   if (orient(d.position, c.position, a.position) <= 0 || orient(c.position, d.position, b.position) <= 0)
     return false;
   const auto known = [&](std::int32_t halfedge, const Corner& p, const Corner& q, const Corner& r) {
-    double& squared = squared_error[at(halfedge / 3)];
-    if (std::isnan(squared)) squared = triangle_error(bound.samples, p, q, r).sum_of_squares;
-    return squared;
+    float& squared = squared_error[at(halfedge / 3)];
+    if (std::isnan(squared)) squared = static_cast<float>(triangle_error(bound.samples, p, q, r).sum_of_squares);
+    return static_cast<double>(squared);
   };
   const double before = known(h, a, b, c) + known(g, b, a, d);
   const double worth = kWorthwhile * (before + colour_error(mesh, bound, {va, vb, vc, vd}));

@@ -29,6 +29,6 @@ bool improve_vertex(WindowMesh& mesh, const RefineBound& bound, std::int32_t v, 
 
 /// Flips the edge of h when that lowers the squared error over the samples of its two triangles. Returns whether it
 /// did. `squared_error` remembers the vertical one by triangle: not a number where it is not known.
-bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h, std::vector<double>& squared_error);
+bool improve_edge(WindowMesh& mesh, const RefineBound& bound, std::int32_t h, std::vector<float>& squared_error);
 
 }  // namespace tinsmith

@@ -38,8 +38,8 @@ class Simplifier {
         squared_error_(mesh.origin.size() / 3),
         quadric_(mesh.position.size()),
         vertex_(mesh.position.size()),
-        edge_(mesh.origin.size()),
-        mark_(mesh.position.size(), 0),
+        best_(mesh.position.size(), kNone),
+        cost_(mesh.origin.size(), kUnknown),
         queue_(mesh.position.size()),
         colours_(colours) {
     if (colours_ == nullptr) return;
@@ -54,7 +54,7 @@ class Simplifier {
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); h += 3) measure_slope(h);
     for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
       if (!mesh_.is_alive(v) || (options_.only_unsettled && mesh_.is_settled[at(v)])) continue;
-      vertex_[at(v)].version = 1;  // 0: nothing has changed around it since the round before
+      vertex_[at(v)].is_touched = true;
       vertex_[at(v)].is_refined = false;
       queue_best(v);
     }
@@ -71,15 +71,15 @@ class Simplifier {
  private:
   static constexpr std::size_t kNoClass = std::numeric_limits<std::size_t>::max();
   static constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-  static constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 
   struct VertexState {
-    std::uint32_t version = 0;  // grows when the star changes
-    std::int32_t best = kNone;  // halfedge of the cheapest edge not refused
-    bool is_best_known = false;
-    bool is_quadric_known = false;
-    bool is_queued = false;
-    bool is_refined = true;
+    bool is_touched : 1 = false;     // something has changed around it since the round before
+    bool has_changed : 1 = false;    // and since its edges were refused
+    bool is_best_known : 1 = false;  // the cheapest edge not refused
+    bool is_quadric_known : 1 = false;
+    bool is_queued : 1 = false;
+    bool is_refined : 1 = true;
+    bool is_marked : 1 = false;
   };
 
   // Of a triangle: height units per cell, and twice the area in lattice units.
@@ -93,11 +93,6 @@ class Simplifier {
   struct ColourSlope {
     std::array<float, kMaxChannels> x{};
     std::array<float, kMaxChannels> y{};
-  };
-
-  struct EdgeState {
-    float cost = kUnknown;  // of when one of its ends moved last: what has changed beside them matters less
-    std::uint32_t refused_at = kNever;  // until one of its ends changes: then the sum of their versions has grown
   };
 
   void collapse_all() {
@@ -122,7 +117,7 @@ class Simplifier {
       refresh_star(v, 0);
     }
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
-      if (mesh_.origin[at(h)] == kNone || h < mesh_.twin[at(h)] || edge_version(h) == 0) continue;
+      if (mesh_.origin[at(h)] == kNone || h < mesh_.twin[at(h)] || !is_touched(h)) continue;
       if (!improve_edge(mesh_, bound, h, squared_error_)) continue;
       ++counts_.flips;
       note_flip(h);
@@ -133,7 +128,7 @@ class Simplifier {
     for (const std::int32_t e : {h, mesh_.twin[at(h)]}) {
       measure_slope(e);
       for (const std::int32_t side : {e, WindowMesh::next(e), WindowMesh::previous(e)}) {
-        edge(side) = {};
+        forget_cost(side);
         change(mesh_.origin[at(side)], 0);
       }
     }
@@ -144,7 +139,7 @@ class Simplifier {
     for_each_out(mesh_, v, [&](std::int32_t h) { measure_slope(h); });
     change(v, cost_class);
     for_each_edge(v, [&](std::int32_t e) {
-      edge(e) = {};
+      forget_cost(e);
       change(other_end(e, v), cost_class);
     });
   }
@@ -152,10 +147,9 @@ class Simplifier {
   // ---- the queue: each vertex waits under the cost of its best edge. A vertex whose star has changed keeps
   // its place and is looked at anew when its turn comes: costs mostly grow, and many change several times.
 
-  std::uint32_t edge_version(std::int32_t h) const {
-    return vertex_[at(mesh_.origin[at(h)])].version + vertex_[at(mesh_.destination(h))].version;
+  bool is_touched(std::int32_t h) const {
+    return vertex_[at(mesh_.origin[at(h)])].is_touched || vertex_[at(mesh_.destination(h))].is_touched;
   }
-  EdgeState& edge(std::int32_t h) { return edge_[at(std::max(h, mesh_.twin[at(h)]))]; }
 
   EdgeEnd end(std::int32_t v) {
     if (!vertex_[at(v)].is_quadric_known) {
@@ -171,23 +165,45 @@ class Simplifier {
     return {end(v0), end(v1), mesh_.is_border_edge(h), colours_ == nullptr ? nullptr : edge_colour(v0, v1)};
   }
 
-  bool is_refused(std::int32_t h) { return edge(h).refused_at == edge_version(h); }
+  // ---- by edge: the cost of when one of its ends moved last (what has changed beside them matters less), kept by
+  // the larger halfedge. A sign says that the edge was refused, which holds until the star of an end changes.
+
+  float& kept_cost(std::int32_t h) { return cost_[at(std::max(h, mesh_.twin[at(h)]))]; }
+  void forget_cost(std::int32_t h) { kept_cost(h) = kUnknown; }
+
+  bool is_refused(std::int32_t h) {
+    return std::signbit(kept_cost(h)) && !vertex_[at(mesh_.origin[at(h)])].has_changed &&
+           !vertex_[at(mesh_.destination(h))].has_changed;
+  }
+
+  void refuse(std::int32_t h) {
+    forget_refusals(mesh_.origin[at(h)]);
+    forget_refusals(mesh_.destination(h));
+    kept_cost(h) = -std::abs(kept_cost(h));
+  }
+
+  // Those from before the star of v changed.
+  void forget_refusals(std::int32_t v) {
+    if (!vertex_[at(v)].has_changed) return;
+    vertex_[at(v)].has_changed = false;
+    for_each_edge(v, [&](std::int32_t h) { kept_cost(h) = std::abs(kept_cost(h)); });
+  }
 
   float cost(std::int32_t h) {
-    EdgeState& state = edge(h);
-    if (std::isnan(state.cost)) {
+    float& kept = kept_cost(h);
+    if (std::isnan(kept)) {
       const Edge e = placed_edge(h);
       const double cost = edge_cost(e, rules_);
-      state.cost = cost > hopeless_cost(e) ? std::numeric_limits<float>::infinity() : static_cast<float>(cost);
+      kept = cost > hopeless_cost(e) ? std::numeric_limits<float>::infinity() : static_cast<float>(cost);
     }
-    return state.cost;
+    return std::abs(kept);
   }
 
   // Of the edges that cost this much about one in ten could collapse, counted over all edges of the sample
   // terrain at 2 and 10 m. Where the quadric error is far above what the tolerance is worth over the cells under
   // the edge the samples hardly ever leave a height, but the fewer they are the more often they do.
   double hopeless_cost(const Edge& e) const {
-    const double cells = (e.v0.quadric->zz + e.v1.quadric->zz) / kLatticeAreaPerCell;
+    const double cells = static_cast<double>(e.v0.quadric->area + e.v1.quadric->area) / kLatticeAreaPerCell;
     const double cells_at_tolerance = 0.62 * cells - 12 + (1300 + 4500 / cells) / cells;  // 47 at the least
     return options_.labour.patience * options_.tolerance * options_.tolerance * cells_at_tolerance *
            kLatticeAreaPerCell;
@@ -208,6 +224,7 @@ class Simplifier {
   std::size_t find_best(std::int32_t v) {
     float best_cost = std::numeric_limits<float>::infinity();
     std::int32_t best = kNone;
+    forget_refusals(v);
     for_each_edge(v, [&](std::int32_t h) {
       if (is_refused(h)) return;
       const float now = cost(h);
@@ -215,7 +232,7 @@ class Simplifier {
       best_cost = now;
       best = h;
     });
-    vertex_[at(v)].best = best;
+    best_[at(v)] = best;
     vertex_[at(v)].is_best_known = true;
     return best == kNone ? kNoClass : BucketQueue::class_of(best_cost);
   }
@@ -235,10 +252,10 @@ class Simplifier {
         return;
       }
     }
-    const std::int32_t h = vertex_[at(v)].best;
+    const std::int32_t h = best_[at(v)];
     if (!is_refused(h) && BucketQueue::class_of(cost(h)) <= cost_class) {
       if (collapse(h, cost_class)) return;
-      edge(h).refused_at = edge_version(h);
+      refuse(h);
     }
     queue_best(v);
   }
@@ -290,15 +307,19 @@ class Simplifier {
   // break the link condition: the ends have no common neighbour but the apexes of the edge's own triangles.
   bool gather_star(std::int32_t h) {
     star_.clear();
-    ++mark_now_;
     const std::int32_t v0 = mesh_.origin[at(h)];
     const std::int32_t v1 = mesh_.destination(h);
-    const std::int32_t last0 = add_sides(v0, v1, [&](std::int32_t neighbour) { mark_[at(neighbour)] = mark_now_; });
-    mark_[at(last0)] = mark_now_;
+    const auto mark = [&](std::int32_t neighbour) {
+      vertex_[at(neighbour)].is_marked = true;
+      marked_.push_back(neighbour);
+    };
+    mark(add_sides(v0, v1, mark));
     int common = 0;
-    const auto count = [&](std::int32_t neighbour) { common += mark_[at(neighbour)] == mark_now_ ? 1 : 0; };
+    const auto count = [&](std::int32_t neighbour) { common += vertex_[at(neighbour)].is_marked ? 1 : 0; };
     const std::int32_t last1 = add_sides(v1, v0, count);
     if (mesh_.is_border_vertex(v1)) count(last1);
+    for (const std::int32_t v : marked_) vertex_[at(v)].is_marked = false;
+    marked_.clear();
     return common == (mesh_.is_border_edge(h) ? 1 : 2) && !star_.empty() && star_.size() <= kMaxStar;
   }
 
@@ -339,31 +360,26 @@ class Simplifier {
 
   void apply(std::int32_t h, const Place& place, std::size_t cost_class) {
     ++counts_.collapses;
-    const std::int32_t v0 = mesh_.origin[at(h)];
-    const std::int32_t v1 = mesh_.destination(h);
     const std::int32_t kept = survivor(h);
-    const std::int32_t gone = kept == v0 ? v1 : v0;
     collapse_edge(mesh_, h, kept, place);
     if (colours_ != nullptr) mesh_.colour[at(kept)] = new_colour_;
-    // Higher than either was: edges that change hands must not look refused.
-    vertex_[at(kept)].version = std::max(vertex_[at(kept)].version, vertex_[at(gone)].version);
     refresh_star(kept, cost_class);
   }
 
   void change(std::int32_t v, std::size_t cost_class) {
     VertexState& state = vertex_[at(v)];
-    ++state.version;
+    state.is_touched = state.has_changed = true;
     state.is_best_known = state.is_quadric_known = state.is_refined = false;
     queue(v, cost_class);
   }
 
   void sum_quadric(std::int32_t v) {
-    VerticalQuadric q;
+    VerticalSum sum;
     for_each_out(mesh_, v, [&](std::int32_t h) {
       const Slope& slope = slope_[at(h / 3)];
-      q.add(slope.x, slope.y, slope.area);
+      sum.add(slope.x, slope.y, slope.area);
     });
-    quadric_[at(v)] = q;
+    quadric_[at(v)] = sum.quadric<float>();
     if (colours_ != nullptr) sum_colour_quadrics(v);
   }
 
@@ -376,7 +392,7 @@ class Simplifier {
     const Plane plane = plane_through(a, b, c);
     slope_[at(h / 3)] = {static_cast<float>(plane.dx), static_cast<float>(plane.dy),
                          static_cast<float>(orient(a.position, b.position, c.position))};
-    squared_error_[at(h / 3)] = std::numeric_limits<double>::quiet_NaN();
+    squared_error_[at(h / 3)] = kUnknown;
     if (colours_ != nullptr) measure_colour_slope(h);
   }
 
@@ -409,13 +425,14 @@ class Simplifier {
   }
 
   void sum_colour_quadrics(std::int32_t v) {
-    ChannelQuadrics& quadrics = colour_quadric_[at(v)];
-    quadrics = {};
+    std::array<VerticalSum, kMaxChannels> sums;
     for_each_out(mesh_, v, [&](std::int32_t h) {
       const ColourSlope& slope = colour_slope_[at(h / 3)];
       for (std::size_t c = 0; c < colours_->channels.size(); ++c)
-        quadrics[c].add(slope.x[c], slope.y[c], slope_[at(h / 3)].area);
+        sums[c].add(slope.x[c], slope.y[c], slope_[at(h / 3)].area);
     });
+    for (std::size_t c = 0; c < colours_->channels.size(); ++c)
+      colour_quadric_[at(v)][c] = sums[c].quadric<float>();
   }
 
   void measure_colour_slope(std::int32_t h) {
@@ -437,7 +454,7 @@ class Simplifier {
     constexpr int kSweeps = 4;
     for (int i = 0; i < kSweeps; ++i) {
       for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
-        if (!mesh_.is_alive(v) || vertex_[at(v)].version == 0 || mesh_.kind[at(v)] == VertexKind::kLocked) continue;
+        if (!mesh_.is_alive(v) || !vertex_[at(v)].is_touched || mesh_.kind[at(v)] == VertexKind::kLocked) continue;
         colour_star_.clear();
         add_colour_sides(mesh_, v, kNone, colour_star_);
         const ColourFit fit = fit_colour(colour_star_, *colours_, mesh_.position[at(v)]);
@@ -450,13 +467,13 @@ class Simplifier {
   const HeightGrid& samples_;
   const SimplifyOptions& options_;
   PlacementRules rules_;
-  std::vector<Slope> slope_;              // by triangle
-  std::vector<double> squared_error_;     // by triangle; not a number: not known
-  std::vector<VerticalQuadric> quadric_;  // by vertex
+  std::vector<Slope> slope_;                     // by triangle
+  std::vector<float> squared_error_;             // by triangle; not a number: not known
+  std::vector<VerticalQuadric<float>> quadric_;  // by vertex
   std::vector<VertexState> vertex_;
-  std::vector<EdgeState> edge_;      // by the larger of its halfedges
-  std::vector<std::uint32_t> mark_;  // by vertex, valid when equal to mark_now_
-  std::uint32_t mark_now_ = 0;
+  std::vector<std::int32_t> best_;    // by vertex: a halfedge of the cheapest edge not refused
+  std::vector<float> cost_;           // by halfedge
+  std::vector<std::int32_t> marked_;  // vertices, while a star is gathered
   BucketQueue queue_;
   Star star_;
   SimplifyCounts counts_;

@@ -21,24 +21,29 @@ struct WeightedPlane {
 struct Edge {
   double x, y, z;
   std::vector<WeightedPlane> planes;
-  VerticalQuadric q0, q1;
+  VerticalSum sum0, sum1;
 
   explicit Edge(std::mt19937_64& random) {
     std::uniform_real_distribution<double> within(-10, 10);
     x = within(random);
     y = within(random);
     z = 5 * within(random);
-    add_fan(random, 0, 0, 0, q0);
-    add_fan(random, x, y, z, q1);
+    add_fan(random, 0, 0, 0, sum0);
+    add_fan(random, x, y, z, sum1);
   }
 
-  void add_fan(std::mt19937_64& random, double x0, double y0, double z0, VerticalQuadric& q) {
+  void add_fan(std::mt19937_64& random, double x0, double y0, double z0, VerticalSum& sum) {
     std::uniform_real_distribution<double> slope(-3, 3);
     for (std::uint64_t i = 0, n = 3 + random() % 5; i < n; ++i) {
       const WeightedPlane plane{x0, y0, z0, slope(random), slope(random), 0.1 + std::abs(slope(random))};
       planes.push_back(plane);
-      q.add(plane.dx, plane.dy, plane.area);
+      sum.add(plane.dx, plane.dy, plane.area);
     }
+  }
+
+  template <class Real>
+  PlanError error() const {
+    return {sum0.quadric<Real>(), sum1.quadric<Real>(), x, y, z};
   }
 
   double direct_sum(double px, double py, double pz) const {
@@ -53,7 +58,7 @@ TEST(PlanError, EqualsTheDirectSumOfSquares) {
   std::uniform_real_distribution<double> within(-20, 20);
   for (int i = 0; i < 5'000; ++i) {
     const Edge edge(random);
-    const PlanError error(edge.q0, edge.q1, edge.x, edge.y, edge.z);
+    const PlanError error = edge.error<double>();
     const double px = within(random);
     const double py = within(random);
     const double pz = 10 * within(random);
@@ -64,12 +69,37 @@ TEST(PlanError, EqualsTheDirectSumOfSquares) {
   }
 }
 
+TEST(PlanError, OfFloatsDiffersByTheirRoundingOnly) {
+  std::mt19937_64 random(24);
+  std::uniform_real_distribution<double> within(-20, 20);
+  for (int i = 0; i < 5'000; ++i) {
+    const Edge edge(random);
+    const PlanError error = edge.error<float>();
+    const double px = within(random);
+    const double py = within(random);
+    const double pz = 10 * within(random);
+    const double direct = edge.direct_sum(px, py, pz);
+    EXPECT_NEAR(error.at(px, py, pz), direct, 3e-6 * (1 + direct)) << "seed 24, edge " << i;
+  }
+}
+
+TEST(PlanError, OfFloatsOnASteepPlaneIsNearlyZero) {
+  VerticalSum sum0;
+  VerticalSum sum1;
+  for (const double area : {1.0, 2.0, 0.5}) {
+    sum0.add(1234.5, -987.25, area);
+    sum1.add(1234.5, -987.25, 2 * area);
+  }
+  const PlanError error(sum0.quadric<float>(), sum1.quadric<float>(), 4, 8, 1234.5 * 4 - 987.25 * 8);
+  EXPECT_NEAR(error.at(2, 3), 0, 1e-9);
+}
+
 TEST(PlanError, ItsHeightIsTheLeastOfAllHeights) {
   std::mt19937_64 random(22);
   std::uniform_real_distribution<double> within(-20, 20);
   for (int i = 0; i < 2'000; ++i) {
     const Edge edge(random);
-    const PlanError error(edge.q0, edge.q1, edge.x, edge.y, edge.z);
+    const PlanError error = edge.error<double>();
     const double px = within(random);
     const double py = within(random);
     const double best = error.height(px, py);
@@ -79,13 +109,13 @@ TEST(PlanError, ItsHeightIsTheLeastOfAllHeights) {
 }
 
 TEST(PlanError, IsZeroOnOnePlane) {
-  VerticalQuadric q0;
-  VerticalQuadric q1;
+  VerticalSum sum0;
+  VerticalSum sum1;
   for (const double area : {1.0, 2.0, 0.5}) {
-    q0.add(0.75, -0.25, area);
-    q1.add(0.75, -0.25, 2 * area);
+    sum0.add(0.75, -0.25, area);
+    sum1.add(0.75, -0.25, 2 * area);
   }
-  const PlanError error(q0, q1, 4, 8, 0.75 * 4 - 0.25 * 8);
+  const PlanError error(sum0.quadric<double>(), sum1.quadric<double>(), 4, 8, 0.75 * 4 - 0.25 * 8);
   EXPECT_EQ(error.at(2, 3), 0);
   EXPECT_DOUBLE_EQ(error.height(2, 3), 0.75 * 2 - 0.25 * 3);
   EXPECT_GT(error.at(2, 3, 5), 0);
@@ -95,7 +125,7 @@ TEST(VerticalQuadric, OfItsOwnVertexIsZero) {
   std::mt19937_64 random(23);
   for (int i = 0; i < 100; ++i) {
     const Edge edge(random);
-    const PlanError alone(edge.q0, VerticalQuadric{}, edge.x, edge.y, edge.z);
+    const PlanError alone(edge.sum0.quadric<double>(), VerticalQuadric<double>{}, edge.x, edge.y, edge.z);
     EXPECT_NEAR(alone.at(0, 0, 0), 0, 1e-12);
   }
 }

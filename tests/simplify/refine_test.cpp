@@ -46,14 +46,14 @@ std::int32_t inner_halfedge(const WindowMesh& mesh) {
   return h;
 }
 
-std::vector<double> nothing_known(const WindowMesh& mesh) {
-  return std::vector<double>(mesh.origin.size() / 3, std::numeric_limits<double>::quiet_NaN());
+std::vector<float> nothing_known(const WindowMesh& mesh) {
+  return std::vector<float>(mesh.origin.size() / 3, std::numeric_limits<float>::quiet_NaN());
 }
 
 TEST(ImproveEdge, TakesTheDiagonalThatFollowsTheTerrain) {
   const HeightGrid grid = roof(8);
   WindowMesh mesh = square_with_wrong_diagonal(8);
-  std::vector<double> squared_error = nothing_known(mesh);
+  std::vector<float> squared_error = nothing_known(mesh);
   EXPECT_TRUE(improve_edge(mesh, {grid, 10}, inner_halfedge(mesh), squared_error));
   EXPECT_EQ(validate(mesh), "");
   const std::int32_t h = inner_halfedge(mesh);
@@ -68,7 +68,7 @@ TEST(ImproveEdge, KeepsAnEdgeWhoseOtherDiagonalLiesOutside) {
   WindowMesh mesh = square_with_wrong_diagonal(8);
   mesh.position[3] = {60, 6};  // just above the line from vertex 0 to vertex 2, which now leaves the quadrilateral
   ASSERT_EQ(validate(mesh), "");
-  std::vector<double> squared_error = nothing_known(mesh);
+  std::vector<float> squared_error = nothing_known(mesh);
   EXPECT_FALSE(improve_edge(mesh, {grid, 10}, inner_halfedge(mesh), squared_error));
 }
 

@@ -32,14 +32,18 @@ BENCHMARK(sample_sweep)->Arg(2)->Arg(5)->Arg(20)->Arg(100);
 
 /// An edge between two vertices of a rough surface.
 struct RoughEdge {
-  VerticalQuadric quadric0;
-  VerticalQuadric quadric1;
+  VerticalQuadric<float> quadric0;
+  VerticalQuadric<float> quadric1;
 
   RoughEdge() {
+    VerticalSum sum0;
+    VerticalSum sum1;
     for (int i = 0; i < 6; ++i) {
-      quadric0.add(0.3 * std::cos(i), 0.2 * std::sin(i), 4);
-      quadric1.add(0.2 * std::sin(i), 0.4 * std::cos(i), 3);
+      sum0.add(0.3 * std::cos(i), 0.2 * std::sin(i), 4);
+      sum1.add(0.2 * std::sin(i), 0.4 * std::cos(i), 3);
     }
+    quadric0 = sum0.quadric<float>();
+    quadric1 = sum1.quadric<float>();
   }
   Edge edge() const {
     return {{{160, 160}, 10, VertexKind::kInterior, &quadric0}, {{192, 176}, 11, VertexKind::kInterior, &quadric1}};
