@@ -30,6 +30,9 @@ constexpr std::array kInsertFactors{2.0, 1.0};
 // vertices near former seams as with one window at 0.5 of the tolerance, 1.038, 1.031, 1.019 and 1.042 at 0.4, no
 // fewer at 0.3.
 constexpr double kSeamFactor = 0.4;
+// Larger windows are triangulated in parts of at most so many cells a side: the triangulation takes 94 bytes a
+// triangle as long as it stands.
+constexpr std::int32_t kPartCells = 96;
 
 struct FaceMark {
   std::int32_t pass = 0;  // the one that listed it last
@@ -46,6 +49,11 @@ using Structure =
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, Structure<CGAL::Triangulation_face_base_2<Kernel>>>;
 using ConstrainedDelaunay = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, Structure<CGAL::Constrained_triangulation_face_base_2<Kernel>>, CGAL::No_constraint_intersection_tag>;
+
+std::size_t index(const GridRect& window, LatticePoint sample) {
+  return static_cast<std::size_t>(static_cast<std::int64_t>(sample.y - window.y0) * window.width +
+                                  (sample.x - window.x0));
+}
 
 // Along a Z-shaped curve (Morton 1966): quarter by quarter of a square.
 template <class F>
@@ -79,14 +87,14 @@ std::vector<LatticePoint> selected_on(const OutlinePiece& piece, Selection& sele
 }
 
 template <class Triangulation>
-class WindowTriangulation {
+class PartTriangulation {
   static constexpr bool kIsFull = std::is_same_v<Triangulation, Delaunay>;
   using Face = typename Triangulation::Face_handle;
   using Vertex = typename Triangulation::Vertex_handle;
 
  public:
-  WindowTriangulation(const HeightGrid& samples, const GridRect& window, const TriangulateOptions& options)
-      : samples_(samples), window_(window), options_(options), aspect_(exact_aspect(options.aspect)) {}
+  PartTriangulation(const HeightGrid& samples, const GridRect& part, const TriangulateOptions& options)
+      : samples_(samples), part_(part), options_(options), aspect_(exact_aspect(options.aspect)) {}
 
   // Neighbours after each other: each is sought from the one before.
   void insert_all(const std::vector<LatticePoint>& selected) {
@@ -95,13 +103,13 @@ class WindowTriangulation {
   }
 
   void constrain(const std::vector<OutlinePiece>& outline, Selection& selection) {
-    std::vector<Vertex> at_sample(static_cast<std::size_t>(window_.area()), nullptr);
+    std::vector<Vertex> at_sample(static_cast<std::size_t>(part_.area()), nullptr);
     for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v)
-      at_sample[index(v->info())] = v;
+      at_sample[index(part_, v->info())] = v;
     for (const OutlinePiece& piece : outline) {
       const std::vector<LatticePoint> line = selected_on(piece, selection);
       for (std::size_t i = 1; i < line.size(); ++i)
-        triangulation_.insert_constraint(at_sample[index(line[i - 1])], at_sample[index(line[i])]);
+        triangulation_.insert_constraint(at_sample[index(part_, line[i - 1])], at_sample[index(part_, line[i])]);
     }
   }
 
@@ -118,38 +126,12 @@ class WindowTriangulation {
     }
   }
 
-  // Vertices come along a space-filling curve, and triangles by them: what lies together in plan lies together in
-  // memory, which makes simplification a third faster.
-  WindowMesh mesh() && {
-    std::vector<std::array<std::int32_t, 3>> triangles;
-    triangles.reserve(triangulation_.number_of_faces());
-    constexpr std::int32_t kUsed = 0;
-    std::vector<std::int32_t> name(static_cast<std::size_t>(window_.area()), kNone);
-    for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
-      if (!is_inside(f)) continue;
-      std::array<std::int32_t, 3>& triangle = triangles.emplace_back();
-      for (int i = 0; i < 3; ++i) {
-        const std::size_t at = index(f->vertex(i)->info());
-        triangle[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(at);
-        name[at] = kUsed;
-      }
+  // Calls f with the three samples of each triangle.
+  template <class F>
+  void for_each_triangle(F&& f) const {
+    for (auto t = triangulation_.finite_faces_begin(); t != triangulation_.finite_faces_end(); ++t) {
+      if (is_inside(t)) f(t->vertex(0)->info(), t->vertex(1)->info(), t->vertex(2)->info());
     }
-    triangulation_.clear();  // as large as all that follows
-    WindowMesh mesh;
-    for_each_along_curve(window_, [&](LatticePoint p) {
-      std::int32_t& there = name[index(p)];
-      if (there == kNone) return;
-      there = mesh.n_vertices();
-      mesh.position.push_back({p.x * kLatticePerCell, p.y * kLatticePerCell});
-      mesh.height.push_back(samples_.at(p.x, p.y));
-    });
-    mesh.is_settled.assign(mesh.position.size(), 0);
-    for (auto& t : triangles) {
-      for (std::int32_t& v : t) v = name[static_cast<std::size_t>(v)];
-      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    }
-    connect(mesh, sorted_by_first_vertex(triangles, mesh.position.size()));
-    return mesh;
   }
 
  private:
@@ -175,13 +157,8 @@ class WindowTriangulation {
   }
 
   Kernel::Point_2 plan(LatticePoint p) const {
-    return {static_cast<double>(p.x - window_.x0), (p.y - window_.y0) * aspect_};
+    return {static_cast<double>(p.x - part_.x0), (p.y - part_.y0) * aspect_};
   }
-  std::size_t index(LatticePoint p) const {
-    return static_cast<std::size_t>(static_cast<std::int64_t>(p.y - window_.y0) * window_.width +
-                                    (p.x - window_.x0));
-  }
-
   Vertex insert(LatticePoint sample, Face hint) {
     const Vertex v = triangulation_.insert(plan(sample), hint);
     v->info() = sample;
@@ -239,18 +216,8 @@ class WindowTriangulation {
     if (!is_corner) found.push_back({error.worst, corners, error.largest});
   }
 
-  static std::vector<std::array<std::int32_t, 3>> sorted_by_first_vertex(
-      const std::vector<std::array<std::int32_t, 3>>& triangles, std::size_t n_vertices) {
-    std::vector<std::size_t> next(n_vertices + 1, 0);
-    for (const auto& t : triangles) ++next[static_cast<std::size_t>(t[0]) + 1];
-    for (std::size_t v = 0; v < n_vertices; ++v) next[v + 1] += next[v];
-    std::vector<std::array<std::int32_t, 3>> sorted(triangles.size());
-    for (const auto& t : triangles) sorted[next[static_cast<std::size_t>(t[0])]++] = t;
-    return sorted;
-  }
-
   const HeightGrid& samples_;
-  GridRect window_;
+  GridRect part_;
   TriangulateOptions options_;
   double aspect_;
   Triangulation triangulation_;
@@ -277,26 +244,92 @@ std::vector<LatticePoint> selected_points(Selection& selection) {
   return points;
 }
 
+using Triangles = std::vector<std::array<std::int32_t, 3>>;
+
 template <class Triangulation>
-WindowMesh triangulate(const HeightGrid& samples, const TriangulateOptions& options,
-                       const std::vector<OutlinePiece>& outline, Selection& selection) {
-  WindowTriangulation<Triangulation> triangulation(samples, selection.window, options);
+void add_part(const HeightGrid& samples, const GridRect& part, const TriangulateOptions& options,
+              const GridRect& window, Triangles& triangles) {
+  const std::vector<OutlinePiece> outline = outline_of(samples, part);
+  if (outline.empty()) return;
+  Selection selection{part, std::vector<std::uint8_t>(static_cast<std::size_t>(part.area()), 0)};
+  select_samples(samples, kSelectFactor * options.tolerance, selection);
+  select_outline(samples, kSeamFactor * options.tolerance, outline, selection);
+  PartTriangulation<Triangulation> triangulation(samples, part, options);
   triangulation.insert_all(selected_points(selection));
   if constexpr (std::is_same_v<Triangulation, ConstrainedDelaunay>) triangulation.constrain(outline, selection);
   triangulation.insert_violations();
-  return std::move(triangulation).mesh();
+  const auto name = [&](LatticePoint sample) { return static_cast<std::int32_t>(index(window, sample)); };
+  triangulation.for_each_triangle([&](LatticePoint a, LatticePoint b, LatticePoint c) {
+    triangles.push_back({name(a), name(b), name(c)});
+  });
+}
+
+// Calls f with rects of about equal size that share borders.
+template <class F>
+void for_each_part(const GridRect& window, F&& f) {
+  const auto n_parts = [](std::int32_t n_samples) { return std::max(1, (n_samples - 2) / kPartCells + 1); };
+  const std::int32_t nx = n_parts(window.width);
+  const std::int32_t ny = n_parts(window.height);
+  const auto cut = [](std::int32_t n_samples, std::int32_t i, std::int32_t n) {
+    return static_cast<std::int32_t>(static_cast<std::int64_t>(n_samples - 1) * i / n);
+  };
+  for (std::int32_t j = 0; j < ny; ++j) {
+    for (std::int32_t i = 0; i < nx; ++i) {
+      const std::int32_t x = cut(window.width, i, nx);
+      const std::int32_t y = cut(window.height, j, ny);
+      f({window.x0 + x, window.y0 + y, cut(window.width, i + 1, nx) - x + 1,
+         cut(window.height, j + 1, ny) - y + 1});
+    }
+  }
+}
+
+// Vertices are renamed to come along a space-filling curve, and triangles are sorted by them: what lies together in
+// plan lies together in memory, which makes simplification a third faster. Returns the samples.
+std::vector<LatticePoint> sort_along_curve(const GridRect& window, Triangles& triangles) {
+  std::vector<std::int32_t> name(static_cast<std::size_t>(window.area()), kNone);
+  constexpr std::int32_t kUsed = 0;
+  for (const auto& t : triangles) {
+    for (const std::int32_t v : t) name[static_cast<std::size_t>(v)] = kUsed;
+  }
+  std::vector<LatticePoint> vertices;
+  for_each_along_curve(window, [&](LatticePoint p) {
+    std::int32_t& there = name[index(window, p)];
+    if (there == kNone) return;
+    there = static_cast<std::int32_t>(vertices.size());
+    vertices.push_back(p);
+  });
+  std::vector<std::size_t> next(vertices.size() + 1, 0);
+  for (auto& t : triangles) {
+    for (std::int32_t& v : t) v = name[static_cast<std::size_t>(v)];
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    ++next[static_cast<std::size_t>(t[0]) + 1];
+  }
+  for (std::size_t v = 0; v < vertices.size(); ++v) next[v + 1] += next[v];
+  Triangles sorted(triangles.size());
+  for (const auto& t : triangles) sorted[next[static_cast<std::size_t>(t[0])]++] = t;
+  triangles = std::move(sorted);
+  return vertices;
 }
 
 }  // namespace
 
 WindowMesh triangulate(const HeightGrid& samples, const GridRect& window, const TriangulateOptions& options) {
-  const std::vector<OutlinePiece> outline = outline_of(samples, window);
-  if (outline.empty()) return {};
-  Selection selection{window, std::vector<std::uint8_t>(static_cast<std::size_t>(window.area()), 0)};
-  select_samples(samples, kSelectFactor * options.tolerance, selection);
-  select_outline(samples, kSeamFactor * options.tolerance, outline, selection);
-  return is_full(samples, window) ? triangulate<Delaunay>(samples, options, outline, selection)
-                                  : triangulate<ConstrainedDelaunay>(samples, options, outline, selection);
+  Triangles triangles;
+  for_each_part(window, [&](const GridRect& part) {
+    if (is_full(samples, part)) {
+      add_part<Delaunay>(samples, part, options, window, triangles);
+    } else {
+      add_part<ConstrainedDelaunay>(samples, part, options, window, triangles);
+    }
+  });
+  WindowMesh mesh;
+  for (const LatticePoint p : sort_along_curve(window, triangles)) {
+    mesh.position.push_back({p.x * kLatticePerCell, p.y * kLatticePerCell});
+    mesh.height.push_back(samples.at(p.x, p.y));
+  }
+  mesh.is_settled.assign(mesh.position.size(), 0);
+  connect(mesh, triangles);
+  return mesh;
 }
 
 }  // namespace tinsmith

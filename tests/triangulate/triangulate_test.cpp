@@ -45,6 +45,18 @@ TEST(Triangulate, CoversTheValidCellsExactlyWithinTheTolerance) {
   EXPECT_GT(inserted, 10'000U);
 }
 
+TEST(Triangulate, JoinsThePartsOfALargeWindow) {
+  for (const Mask mask : kMasks) {
+    SCOPED_TRACE(name_of(mask));
+    const HeightGrid grid = mountains(230, 131, 104, mask);
+    for (const double tolerance : {0.0, 10.0, 5000.0}) {
+      const WindowMesh mesh = triangulate_whole(grid, tolerance);
+      EXPECT_EQ(validate(mesh), "");
+      EXPECT_EQ(complaints(check_surface(mesh, grid), tolerance + 1e-9), "");
+    }
+  }
+}
+
 TEST(Triangulate, EveryVertexIsASampleWithItsHeight) {
   const HeightGrid grid = mountains(65, 65, 102, Mask::kSparse);
   const WindowMesh mesh = triangulate_whole(grid, 10);
@@ -148,6 +160,18 @@ TEST(Triangulate, BothSidesOfASeamAgreeWhateverVoidsTouchIt) {
   }
   EXPECT_GT(n_edges, 5'000U);
   EXPECT_GT(n_ends, 500U);
+}
+
+TEST(Triangulate, BothSidesOfASeamAgreeAlongSeveralParts) {
+  std::size_t n_edges = 0;
+  std::size_t n_ends = 0;
+  for (const Mask mask : kMasks) {
+    SCOPED_TRACE(name_of(mask));
+    const HeightGrid grid = mountains(41, 233, 135, mask);
+    expect_sides_agree(grid, 8, n_edges, n_ends);
+    expect_sides_agree(transposed(grid), 8, n_edges, n_ends);
+  }
+  EXPECT_GT(n_edges, 500U);
 }
 
 // A void of one sample at every place around the seam, alone.
