@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "geometry/triangle_rows.hpp"
 #include "simplify/simplify.hpp"
@@ -138,7 +139,7 @@ FirstChunk first_chunk(const HeightField& field, const GridRect& window, const W
   set_kinds(mesh, samples);
   lock_beside_seams(mesh, window);
   simplify(mesh, samples, simplification, pointer_to(levels));
-  result.chunk = chunk_of(mesh);
+  result.chunk = chunk_of(std::move(mesh));
   return result;
 }
 
@@ -149,10 +150,10 @@ Chunk seam_chunk(const HeightField& field, const std::vector<const Chunk*>& part
   WindowMesh mesh = mesh_of(std::move(welded));
   const HeightGrid samples = field.read(grown(rect_of(mesh.position)));
   set_kinds(mesh, samples);
-  if (!has_unsettled(mesh)) return chunk_of(mesh);
+  if (!has_unsettled(mesh)) return chunk_of(std::move(mesh));
   const std::optional<ColourGrid> levels = read_colours(colours, samples.rect);
   simplify(mesh, samples, simplify_options(samples, options, true), pointer_to(levels));
-  return chunk_of(mesh);
+  return chunk_of(std::move(mesh));
 }
 
 }  // namespace tinsmith

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 namespace tinsmith {
@@ -10,43 +11,45 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// The vertices that some triangles of a chunk use, renumbered in the order of their first use.
+// Some triangles of a chunk or mesh, with the vertices that they use, renumbered in the order of their first use.
+template <class Vertices>
 class Extract {
  public:
-  explicit Extract(const Chunk& from) : from_(from), name_(from.position.size(), kNone) {}
+  explicit Extract(const Vertices& from) : from_(from), name_(from.position.size(), kNone) {}
 
-  Chunk operator()(const std::vector<std::int32_t>& triangles) {
-    Chunk part;
-    part.triangles.reserve(triangles.size());
-    for (const std::int32_t t : triangles) {
-      std::array<std::int32_t, 3> renamed{};
-      for (std::size_t k = 0; k < 3; ++k) renamed[k] = name(part, from_.triangles[at(t)][k]);
-      part.triangles.push_back(renamed);
-    }
-    for (const std::int32_t t : triangles) {
-      for (const std::int32_t v : from_.triangles[at(t)]) name_[at(v)] = kNone;
-    }
-    return part;
+  void reserve(std::size_t n_triangles) { part_.triangles.reserve(n_triangles); }
+
+  void add(const std::array<std::int32_t, 3>& triangle) {
+    part_.triangles.push_back({name(triangle[0]), name(triangle[1]), name(triangle[2])});
+  }
+
+  Chunk take() {
+    for (const std::int32_t v : used_) name_[at(v)] = kNone;
+    used_.clear();
+    return std::exchange(part_, {});
   }
 
  private:
-  std::int32_t name(Chunk& part, std::int32_t v) {
+  std::int32_t name(std::int32_t v) {
     if (name_[at(v)] == kNone) {
-      name_[at(v)] = static_cast<std::int32_t>(part.position.size());
-      part.position.push_back(from_.position[at(v)]);
-      part.height.push_back(from_.height[at(v)]);
-      part.is_settled.push_back(from_.is_settled[at(v)]);
-      if (!from_.colour.empty()) part.colour.push_back(from_.colour[at(v)]);
+      name_[at(v)] = static_cast<std::int32_t>(used_.size());
+      used_.push_back(v);
+      part_.position.push_back(from_.position[at(v)]);
+      part_.height.push_back(from_.height[at(v)]);
+      part_.is_settled.push_back(from_.is_settled[at(v)]);
+      if (!from_.colour.empty()) part_.colour.push_back(from_.colour[at(v)]);
     }
     return name_[at(v)];
   }
 
-  const Chunk& from_;
-  std::vector<std::int32_t> name_;
+  const Vertices& from_;
+  std::vector<std::int32_t> name_;  // by vertex
+  std::vector<std::int32_t> used_;
+  Chunk part_;
 };
 
 // Settled is from now on what is free and has free neighbours only.
-void settle(std::vector<std::uint8_t>& is_settled, const WindowMesh& mesh) {
+void settle(WindowMesh& mesh) {
   std::vector<std::uint8_t> is_near_locked(mesh.position.size(), 0);
   for (std::int32_t h = 0; h < mesh.n_halfedges(); ++h) {
     if (mesh.origin[at(h)] == kNone || mesh.kind[at(mesh.origin[at(h)])] != VertexKind::kLocked) continue;
@@ -54,8 +57,8 @@ void settle(std::vector<std::uint8_t>& is_settled, const WindowMesh& mesh) {
     is_near_locked[at(mesh.destination(h))] = 1;
     is_near_locked[at(mesh.origin[at(WindowMesh::previous(h))])] = 1;
   }
-  for (std::size_t v = 0; v < is_settled.size(); ++v) {
-    if (!is_near_locked[v]) is_settled[v] = 1;
+  for (std::size_t v = 0; v < is_near_locked.size(); ++v) {
+    if (!is_near_locked[v]) mesh.is_settled[v] = 1;
   }
 }
 
@@ -71,34 +74,30 @@ WindowMesh mesh_of(Chunk&& chunk) {
   return mesh;
 }
 
-Chunk chunk_of(const WindowMesh& mesh) {
-  Chunk all{mesh.position, mesh.height, mesh.is_settled, {}, mesh.colour};
-  settle(all.is_settled, mesh);
-  std::vector<std::int32_t> live;
+Chunk chunk_of(WindowMesh&& mesh) {
+  settle(mesh);
+  Extract extract(mesh);
+  const auto n_removed = std::count(mesh.origin.begin(), mesh.origin.end(), kNone);
+  extract.reserve((mesh.origin.size() - static_cast<std::size_t>(n_removed)) / 3);
   for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
-    if (mesh.origin[at(h)] == kNone) continue;
-    live.push_back(static_cast<std::int32_t>(all.triangles.size()));
-    all.triangles.push_back({mesh.origin[at(h)], mesh.origin[at(h + 1)], mesh.origin[at(h + 2)]});
+    if (mesh.origin[at(h)] != kNone)
+      extract.add({mesh.origin[at(h)], mesh.origin[at(h + 1)], mesh.origin[at(h + 2)]});
   }
-  return Extract(all)(live);
+  return extract.take();
 }
 
 std::vector<ChunkPart> split(const Chunk& chunk, const WindowGrid& windows) {
-  std::vector<std::pair<std::int64_t, std::int32_t>> owner;
-  owner.reserve(chunk.triangles.size());
+  std::map<std::int64_t, std::vector<std::int32_t>> triangles_of;
   for (std::size_t t = 0; t < chunk.triangles.size(); ++t) {
     const auto& [a, b, c] = chunk.triangles[t];
-    owner.emplace_back(windows.window_of(chunk.position[at(a)], chunk.position[at(b)], chunk.position[at(c)]),
-                       static_cast<std::int32_t>(t));
+    triangles_of[windows.window_of(chunk.position[at(a)], chunk.position[at(b)], chunk.position[at(c)])].push_back(
+        static_cast<std::int32_t>(t));
   }
-  std::sort(owner.begin(), owner.end());
   std::vector<ChunkPart> parts;
   Extract extract(chunk);
-  for (std::size_t i = 0; i < owner.size();) {
-    const std::int64_t window = owner[i].first;
-    std::vector<std::int32_t> triangles;
-    for (; i < owner.size() && owner[i].first == window; ++i) triangles.push_back(owner[i].second);
-    parts.push_back({window, extract(triangles)});
+  for (const auto& [window, triangles] : triangles_of) {
+    for (const std::int32_t t : triangles) extract.add(chunk.triangles[at(t)]);
+    parts.push_back({window, extract.take()});
   }
   return parts;
 }

@@ -28,7 +28,7 @@ struct Chunk {
 WindowMesh mesh_of(Chunk&& chunk);
 
 /// The live part of a mesh. Settled from now on is what was free and had no locked neighbour.
-Chunk chunk_of(const WindowMesh& mesh);
+Chunk chunk_of(WindowMesh&& mesh);
 
 /// The part of a chunk that belongs to a window, for each window that it touches, in the order of the windows.
 struct ChunkPart {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "support/colours.hpp"
 #include "support/mesh_drawings.hpp"
 #include "support/random_grid.hpp"
@@ -14,7 +16,7 @@ TEST(ChunkColour, FollowsItsVertexThroughSplitAndWeld) {
   const HeightGrid grid = mountains(40, 33, 411, Mask::kSparse);
   WindowMesh mesh = full_mesh(grid);
   paint(mesh, colours_of(grid.rect, 3, noise));
-  Chunk chunk = chunk_of(mesh);
+  Chunk chunk = chunk_of(std::move(mesh));
   std::vector<const Chunk*> parts;
   const std::vector<ChunkPart> split_parts = split(chunk, window_grid(40, 33, 8, 0));
   for (const ChunkPart& part : split_parts) parts.push_back(&part.chunk);
@@ -28,8 +30,8 @@ TEST(ChunkColour, FollowsItsVertexThroughSplitAndWeld) {
 }
 
 TEST(ChunkColour, IsNoneWhereTheMeshHasNone) {
-  const WindowMesh mesh = full_mesh(mountains(9, 9, 412, Mask::kNone));
-  const Chunk chunk = chunk_of(mesh);
+  WindowMesh mesh = full_mesh(mountains(9, 9, 412, Mask::kNone));
+  const Chunk chunk = chunk_of(std::move(mesh));
   EXPECT_TRUE(chunk.colour.empty());
   EXPECT_TRUE(weld({&chunk}).colour.empty());
 }

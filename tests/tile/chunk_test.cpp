@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 #include <tuple>
+#include <utility>
 
 #include "support/random_grid.hpp"
 #include "support/surface_check.hpp"
@@ -104,8 +105,9 @@ TEST(Chunk, OfAMeshHoldsItsLiveTrianglesAndSettlesWhatHasFreeNeighboursOnly) {
     mesh.kind[v] = VertexKind::kLocked;
     locked.push_back(mesh.position[v]);
   }
-  const Chunk chunk = chunk_of(mesh);
-  EXPECT_EQ(soup_of(chunk).triangles.size(), soup_of(mesh).triangles.size());
+  const std::size_t n_triangles = soup_of(mesh).triangles.size();
+  const Chunk chunk = chunk_of(std::move(mesh));
+  EXPECT_EQ(soup_of(chunk).triangles.size(), n_triangles);
   EXPECT_EQ(complaints(check_surface(chunk, grid), 50), "");
   const auto is_locked = [&](std::int32_t v) {
     return std::find(locked.begin(), locked.end(), chunk.position[static_cast<std::size_t>(v)]) != locked.end();
