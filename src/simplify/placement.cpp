@@ -18,7 +18,7 @@ struct PlanPoint {
 
 void add_colour(PlanError& error, const EdgeColour& colour, PlanPoint d) {
   for (std::size_t c = 0; c < colour.n_channels; ++c)
-    error.add_channel(PlanError((*colour.v0)[c], (*colour.v1)[c], d.x, d.y, colour.rise[c]));
+    error.add_channel(PlanError(colour.v0[c], colour.v1[c], d.x, d.y, colour.rise[c]));
 }
 
 // The edge in cells, relative to v0.
@@ -32,7 +32,7 @@ struct EdgeFrame {
       : edge(e),
         d{(e.v1.position.x - e.v0.position.x) * kCell, (e.v1.position.y - e.v0.position.y) * kCell},
         dz(e.v1.height - e.v0.height),
-        error(*e.v0.quadric, *e.v1.quadric, d.x, d.y, dz) {
+        error(e.v0.quadric, e.v1.quadric, d.x, d.y, dz) {
     if (e.colour != nullptr) add_colour(error, *e.colour, d);
   }
 };

@@ -30,18 +30,18 @@ struct EdgeEnd {
   LatticePoint position;
   double height = 0;
   VertexKind kind = VertexKind::kInterior;
-  const VerticalQuadric<float>* quadric = nullptr;
+  VerticalQuadric<double> quadric;
 };
 
 /// The quadrics of a vertex, one for each channel of its colour, in height units.
-using ChannelQuadrics = std::array<VerticalQuadric<float>, kMaxChannels>;
+using ChannelQuadrics = std::array<VerticalQuadric<double>, kMaxChannels>;
 
 /// The colour of an edge, in height units.
 struct EdgeColour {
   std::size_t n_channels = 0;
   std::array<double, kMaxChannels> rise{};  // from v0 to v1
-  const ChannelQuadrics* v0 = nullptr;
-  const ChannelQuadrics* v1 = nullptr;
+  ChannelQuadrics v0;
+  ChannelQuadrics v1;
 };
 
 /// An edge as its placement sees it.

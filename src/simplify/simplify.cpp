@@ -34,24 +34,21 @@ class Simplifier {
         samples_(samples),
         options_(options),
         rules_{options.placement, std::max(0.01 * options.tolerance, 1e-9)},
-        slope_(mesh.origin.size() / 3),
-        squared_error_(mesh.origin.size() / 3),
-        quadric_(mesh.position.size()),
+        squared_error_(mesh.origin.size() / 3, kUnknown),
+        quadrics_(kQuadrics),
         vertex_(mesh.position.size()),
         best_(mesh.position.size(), kNone),
         cost_(mesh.origin.size(), kUnknown),
         queue_(mesh.position.size()),
         colours_(colours) {
     if (colours_ == nullptr) return;
-    colour_slope_.resize(slope_.size());
-    colour_quadric_.resize(quadric_.size());
+    colour_quadrics_.resize(kQuadrics);
     const auto n_channels = static_cast<double>(colours_->channels.size());
     height_per_level_ =
         std::sqrt(options.colour.weight / n_channels) * options.tolerance / options.colour.tolerance;
   }
 
   SimplifyCounts run() {
-    for (std::int32_t h = 0; h < mesh_.n_halfedges(); h += 3) measure_slope(h);
     for (std::int32_t v = 0; v < mesh_.n_vertices(); ++v) {
       if (!mesh_.is_alive(v) || (options_.only_unsettled && mesh_.is_settled[at(v)])) continue;
       vertex_[at(v)].is_touched = true;
@@ -76,24 +73,16 @@ class Simplifier {
     bool is_touched : 1 = false;     // something has changed around it since the round before
     bool has_changed : 1 = false;    // and since its edges were refused
     bool is_best_known : 1 = false;  // the cheapest edge not refused
-    bool is_quadric_known : 1 = false;
     bool is_queued : 1 = false;
     bool is_refined : 1 = true;
     bool is_marked : 1 = false;
   };
 
-  // Of a triangle: height units per cell, and twice the area in lattice units.
-  struct Slope {
-    float x = 0;
-    float y = 0;
-    float area = 0;
+  struct VertexQuadric {
+    std::int32_t vertex = kNone;
+    VerticalQuadric<double> quadric;
   };
-
-  // Of a triangle, by channel: levels as height units, per cell.
-  struct ColourSlope {
-    std::array<float, kMaxChannels> x{};
-    std::array<float, kMaxChannels> y{};
-  };
+  static constexpr std::size_t kQuadrics = 2048;
 
   void collapse_all() {
     std::int32_t v = kNone;
@@ -126,7 +115,7 @@ class Simplifier {
 
   void note_flip(std::int32_t h) {
     for (const std::int32_t e : {h, mesh_.twin[at(h)]}) {
-      measure_slope(e);
+      forget_error(e);
       for (const std::int32_t side : {e, WindowMesh::next(e), WindowMesh::previous(e)}) {
         forget_cost(side);
         change(mesh_.origin[at(side)], 0);
@@ -136,7 +125,7 @@ class Simplifier {
 
   // v has moved.
   void refresh_star(std::int32_t v, std::size_t cost_class) {
-    for_each_out(mesh_, v, [&](std::int32_t h) { measure_slope(h); });
+    for_each_out(mesh_, v, [&](std::int32_t h) { forget_error(h); });
     change(v, cost_class);
     for_each_edge(v, [&](std::int32_t e) {
       forget_cost(e);
@@ -152,11 +141,7 @@ class Simplifier {
   }
 
   EdgeEnd end(std::int32_t v) {
-    if (!vertex_[at(v)].is_quadric_known) {
-      sum_quadric(v);
-      vertex_[at(v)].is_quadric_known = true;
-    }
-    return {mesh_.position[at(v)], mesh_.height[at(v)], mesh_.kind[at(v)], &quadric_[at(v)]};
+    return {mesh_.position[at(v)], mesh_.height[at(v)], mesh_.kind[at(v)], quadrics_[summed(v)].quadric};
   }
 
   Edge placed_edge(std::int32_t h) {
@@ -203,7 +188,7 @@ class Simplifier {
   // terrain at 2 and 10 m. Where the quadric error is far above what the tolerance is worth over the cells under
   // the edge the samples hardly ever leave a height, but the fewer they are the more often they do.
   double hopeless_cost(const Edge& e) const {
-    const double cells = static_cast<double>(e.v0.quadric->area + e.v1.quadric->area) / kLatticeAreaPerCell;
+    const double cells = (e.v0.quadric.area + e.v1.quadric.area) / kLatticeAreaPerCell;
     const double cells_at_tolerance = 0.62 * cells - 12 + (1300 + 4500 / cells) / cells;  // 47 at the least
     return options_.labour.patience * options_.tolerance * options_.tolerance * cells_at_tolerance *
            kLatticeAreaPerCell;
@@ -369,32 +354,42 @@ class Simplifier {
   void change(std::int32_t v, std::size_t cost_class) {
     VertexState& state = vertex_[at(v)];
     state.is_touched = state.has_changed = true;
-    state.is_best_known = state.is_quadric_known = state.is_refined = false;
+    state.is_best_known = state.is_refined = false;
+    if (quadrics_[slot_of(v)].vertex == v) quadrics_[slot_of(v)].vertex = kNone;
     queue(v, cost_class);
   }
 
-  void sum_quadric(std::int32_t v) {
-    VerticalSum sum;
-    for_each_out(mesh_, v, [&](std::int32_t h) {
-      const Slope& slope = slope_[at(h / 3)];
-      sum.add(slope.x, slope.y, slope.area);
-    });
-    quadric_[at(v)] = sum.quadric<float>();
-    if (colours_ != nullptr) sum_colour_quadrics(v);
+  // ---- quadrics: those of a few vertices are remembered. Vertices come along a curve, so they are asked for again
+  // while they are there.
+
+  static std::size_t slot_of(std::int32_t v) { return at(v) % kQuadrics; }
+
+  std::size_t summed(std::int32_t v) {
+    const std::size_t slot = slot_of(v);
+    if (quadrics_[slot].vertex != v) sum_quadrics(v, slot);
+    return slot;
   }
 
-  // The triangle of h has come into being or has changed.
-  void measure_slope(std::int32_t h) {
-    const std::int32_t n = WindowMesh::next(h);
-    const Corner a = corner(mesh_.origin[at(h)]);
-    const Corner b = corner(mesh_.origin[at(n)]);
-    const Corner c = corner(mesh_.destination(n));
-    const Plane plane = plane_through(a, b, c);
-    slope_[at(h / 3)] = {static_cast<float>(plane.dx), static_cast<float>(plane.dy),
-                         static_cast<float>(orient(a.position, b.position, c.position))};
-    squared_error_[at(h / 3)] = kUnknown;
-    if (colours_ != nullptr) measure_colour_slope(h);
+  void sum_quadrics(std::int32_t v, std::size_t slot) {
+    VerticalSum sum;
+    const Corner middle = corner(v);
+    Corner a = corner(mesh_.destination(mesh_.out[at(v)]));
+    for_each_out(mesh_, v, [&](std::int32_t h) {
+      const Corner b = corner(mesh_.origin[at(WindowMesh::previous(h))]);
+      add_plane(sum, middle, a, b);
+      a = b;
+    });
+    quadrics_[slot] = {v, sum.quadric<double>()};
+    if (colours_ != nullptr) sum_colour_quadrics(v, slot);
   }
+
+  static void add_plane(VerticalSum& sum, const Corner& a, const Corner& b, const Corner& c) {
+    const Plane plane = plane_through(a, b, c);
+    sum.add(plane.dx, plane.dy, static_cast<double>(orient(a.position, b.position, c.position)));
+  }
+
+  // The triangle of h has changed.
+  void forget_error(std::int32_t h) { squared_error_[at(h / 3)] = kUnknown; }
 
   // ---- colour
 
@@ -416,36 +411,25 @@ class Simplifier {
 
   const EdgeColour* edge_colour(std::int32_t v0, std::int32_t v1) {
     edge_colour_.n_channels = colours_->channels.size();
-    edge_colour_.v0 = &colour_quadric_[at(v0)];
-    edge_colour_.v1 = &colour_quadric_[at(v1)];
+    edge_colour_.v0 = colour_quadrics_[summed(v0)];
+    edge_colour_.v1 = colour_quadrics_[summed(v1)];
     for (std::size_t c = 0; c < edge_colour_.n_channels; ++c)
       edge_colour_.rise[c] =
           height_per_level_ * static_cast<double>(mesh_.colour[at(v1)][c] - mesh_.colour[at(v0)][c]);
     return &edge_colour_;
   }
 
-  void sum_colour_quadrics(std::int32_t v) {
-    std::array<VerticalSum, kMaxChannels> sums;
-    for_each_out(mesh_, v, [&](std::int32_t h) {
-      const ColourSlope& slope = colour_slope_[at(h / 3)];
-      for (std::size_t c = 0; c < colours_->channels.size(); ++c)
-        sums[c].add(slope.x[c], slope.y[c], slope_[at(h / 3)].area);
-    });
-    for (std::size_t c = 0; c < colours_->channels.size(); ++c)
-      colour_quadric_[at(v)][c] = sums[c].quadric<float>();
-  }
-
-  void measure_colour_slope(std::int32_t h) {
-    ColourSlope& slope = colour_slope_[at(h / 3)];
-    const std::int32_t n = WindowMesh::next(h);
+  void sum_colour_quadrics(std::int32_t v, std::size_t slot) {
     for (std::size_t c = 0; c < colours_->channels.size(); ++c) {
-      const auto level = [&](std::int32_t v) {
-        return Corner{mesh_.position[at(v)], height_per_level_ * static_cast<double>(mesh_.colour[at(v)][c])};
+      const auto level = [&](std::int32_t corner) {
+        return Corner{mesh_.position[at(corner)],
+                      height_per_level_ * static_cast<double>(mesh_.colour[at(corner)][c])};
       };
-      const Plane plane =
-          plane_through(level(mesh_.origin[at(h)]), level(mesh_.origin[at(n)]), level(mesh_.destination(n)));
-      slope.x[c] = static_cast<float>(plane.dx);
-      slope.y[c] = static_cast<float>(plane.dy);
+      VerticalSum sum;
+      for_each_out(mesh_, v, [&](std::int32_t h) {
+        add_plane(sum, level(v), level(mesh_.destination(h)), level(mesh_.origin[at(WindowMesh::previous(h))]));
+      });
+      colour_quadrics_[slot][c] = sum.quadric<double>();
     }
   }
 
@@ -467,9 +451,8 @@ class Simplifier {
   const HeightGrid& samples_;
   const SimplifyOptions& options_;
   PlacementRules rules_;
-  std::vector<Slope> slope_;                     // by triangle
-  std::vector<float> squared_error_;             // by triangle; not a number: not known
-  std::vector<VerticalQuadric<float>> quadric_;  // by vertex
+  std::vector<float> squared_error_;  // by triangle; not a number: not known
+  std::vector<VertexQuadric> quadrics_;
   std::vector<VertexState> vertex_;
   std::vector<std::int32_t> best_;    // by vertex: a halfedge of the cheapest edge not refused
   std::vector<float> cost_;           // by halfedge
@@ -477,10 +460,9 @@ class Simplifier {
   BucketQueue queue_;
   Star star_;
   SimplifyCounts counts_;
-  const ColourGrid* colours_;                    // none: what follows is empty
-  double height_per_level_ = 0;                  // what makes levels and heights weigh alike
-  std::vector<ColourSlope> colour_slope_;        // by triangle
-  std::vector<ChannelQuadrics> colour_quadric_;  // by vertex
+  const ColourGrid* colours_;                     // none: what follows is empty
+  double height_per_level_ = 0;                   // what makes levels and heights weigh alike
+  std::vector<ChannelQuadrics> colour_quadrics_;  // beside quadrics_
   EdgeColour edge_colour_;
   ColourStar colour_star_;
   Levels new_colour_{};
