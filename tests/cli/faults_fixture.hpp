@@ -47,17 +47,6 @@ class FaultsTest : public CliTest {
   std::string output() const { return path("out.ply"); }
   std::string work() const { return path(".out.ply.tinsmith"); }
 
-  /// The files in which the finished windows are kept, the index among them, sorted.
-  std::vector<fs::path> work_files(const std::string& folder) const {
-    std::vector<fs::path> found;
-    if (!fs::exists(folder)) return found;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file() && entry.path().filename() != "run" && entry.path().filename() != "lock")
-        found.push_back(entry.path());
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
   bool has_index() const {
     const auto files = work_files(work());
     return !files.empty() && fs::file_size(files.front()) > 0;
@@ -82,18 +71,6 @@ class FaultsTest : public CliTest {
       if (!gone) bytes += static_cast<double>(size);
     }
     return bytes;
-  }
-
-  /// Waits until it is so, or the program has ended: then false.
-  template <class Condition>
-  bool wait_until(const Running& running, Condition is_so) const {
-    while (!is_so()) {
-      siginfo_t ended{};
-      waitid(P_PID, static_cast<id_t>(running.process), &ended, WEXITED | WNOHANG | WNOWAIT);
-      if (ended.si_pid != 0) return false;
-      usleep(200);
-    }
-    return true;
   }
 
   /// Stops the program at a moment, does something, and lets it go on.

@@ -68,15 +68,19 @@ TEST_F(CliProgress, AResumedRunBeginsWhereItWas) {
   const std::vector<std::string> words{"compress",   dem,   path("dem.ply"), "--max-error", "1",
                                        "--window",   "32",  "--no-verify",   "--threads",   "1",
                                        "--progress", "json"};
-  const Outcome stopped = run(words, {.file_size = {}, .signal_after_ms = 800});
-  ASSERT_EQ(stopped.exit_code, 130) << "faster than the signal: " << stopped.err;
+  const auto has_told = [&](const Running& running) {
+    return text_of(said(running.name, "err")).find('\n') != std::string::npos;
+  };
+  const Outcome stopped = run_until(has_told, words);
+  ASSERT_EQ(stopped.exit_code, 130) << stopped.err;
   std::vector<json> before;
   std::istringstream stream(stopped.err);
   for (std::string line; std::getline(stream, line);)
     if (line.starts_with('{')) before.push_back(json::parse(line));
   const Outcome resumed = run(words);
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  const double reached = before.empty() ? 0 : before.back()["fraction"].get<double>();
+  ASSERT_FALSE(before.empty());
+  const double reached = before.back()["fraction"].get<double>();
   EXPECT_GE(lines_of(resumed.err).front()["fraction"], reached);
 }
 

@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -35,7 +37,6 @@ struct Running {
 
 struct Limits {
   std::optional<rlim_t> file_size{};  // bytes: the disk is full when a file is as large
-  int signal_after_ms = 0;            // with SIGINT, once; 0: never
   std::optional<uid_t> user{};        // for whom the superuser runs it
 };
 
@@ -54,12 +55,27 @@ class CliTest : public RasterTest {
  protected:
   /// The words of a command line after the program's name.
   Outcome run(const std::vector<std::string>& words, const Limits& limits = {}) const {
-    const Running running = start(words, limits);
-    if (limits.signal_after_ms > 0) {
-      usleep(static_cast<useconds_t>(limits.signal_after_ms) * 1000);
-      kill(running.process, SIGINT);
-    }
+    return wait_for(start(words, limits));
+  }
+
+  /// Sends SIGINT as soon as it is_so.
+  template <class Condition>
+  Outcome run_until(Condition is_so, const std::vector<std::string>& words) const {
+    const Running running = start(words);
+    if (wait_until(running, [&] { return is_so(running); })) kill(running.process, SIGINT);
     return wait_for(running);
+  }
+
+  /// Waits until it is so, or the program has ended: then false.
+  template <class Condition>
+  bool wait_until(const Running& running, Condition is_so) const {
+    while (!is_so()) {
+      siginfo_t ended{};
+      waitid(P_PID, static_cast<id_t>(running.process), &ended, WEXITED | WNOHANG | WNOWAIT);
+      if (ended.si_pid != 0) return false;
+      usleep(200);
+    }
+    return true;
   }
 
   Running start(std::vector<std::string> words, const Limits& limits = {}, const std::string& name = "said") const {
@@ -80,6 +96,32 @@ class CliTest : public RasterTest {
             text_of(said(running.name, "err")), seconds(usage.ru_utime) + seconds(usage.ru_stime),
             static_cast<double>(usage.ru_maxrss) * 1024};
   }
+
+  /// The files in which the finished windows are kept, the index among them, sorted.
+  std::vector<std::filesystem::path> work_files(const std::string& folder) const {
+    std::vector<std::filesystem::path> found;
+    if (!std::filesystem::exists(folder)) return found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.is_regular_file() && entry.path().filename() != "run" && entry.path().filename() != "lock")
+        found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  /// Whether the program has come so far as to catch SIGINT.
+  static bool catches_interrupts(const Running& running) {
+    std::ifstream status("/proc/" + std::to_string(running.process) + "/status");
+    for (std::string word; status >> word;) {
+      if (word != "SigCgt:") continue;
+      std::uint64_t caught = 0;
+      status >> std::hex >> caught;
+      return (caught >> (SIGINT - 1) & 1) != 0;
+    }
+    return false;
+  }
+
+  /// The file that holds what a program of the name said on a stream, "out" or "err".
+  std::string said(const std::string& name, const char* stream) const { return path(name + "." + stream); }
 
   /// A smooth hill of size x size samples of 30 m.
   std::string hill(const std::string& name, int size, const RasterRecipe& like = {}) const {
@@ -127,8 +169,6 @@ class CliTest : public RasterTest {
   }
 
  private:
-  std::string said(const std::string& name, const char* stream) const { return path(name + "." + stream); }
-
   [[noreturn]] void become_program(const std::vector<std::string>& words, const Limits& limits,
                                    const std::string& name) const {
     send_output_to(said(name, "out"), STDOUT_FILENO);

@@ -405,7 +405,7 @@ TEST_F(Simplify, WritesTheReportToAFile) {
 
 TEST_F(Simplify, InterruptedLeavesNothing) {
   const std::string mesh = sheet(500);
-  const Outcome outcome = run({"simplify", mesh, path("out.ply")}, {{}, 150});
+  const Outcome outcome = run_until(catches_interrupts, {"simplify", mesh, path("out.ply")});
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(files(), std::vector<std::string>{"sheet.ply"});
