@@ -10,12 +10,11 @@
 namespace tinsmith {
 
 /// E(p, z) = area (z - slope . p)^2 + p^T [xx xy; xy yy] p for a point relative to the vertex, plan in cells: the
-/// mean plane and how the planes differ from it. Nothing cancels in this form, so that float is enough to store it.
-template <class Real>
+/// mean plane and how the planes differ from it, so that nothing cancels.
 struct VerticalQuadric {
-  Real slope_x = 0, slope_y = 0;
-  Real xx = 0, xy = 0, yy = 0;
-  Real area = 0;
+  double slope_x = 0, slope_y = 0;
+  double xx = 0, xy = 0, yy = 0;
+  double area = 0;
 };
 
 /// Sums the planes of a quadric.
@@ -34,16 +33,12 @@ class VerticalSum {
   }
 
   /// At least one plane has been added.
-  template <class Real>
-  VerticalQuadric<Real> quadric() const {
+  VerticalQuadric quadric() const {
     const double slope_x = x_ / area_;
     const double slope_y = y_ / area_;
-    return {static_cast<Real>(slope_x),
-            static_cast<Real>(slope_y),
-            static_cast<Real>(std::max(0.0, xx_ - x_ * slope_x)),
-            static_cast<Real>(xy_ - x_ * slope_y),
-            static_cast<Real>(std::max(0.0, yy_ - y_ * slope_y)),
-            static_cast<Real>(area_)};
+    return {
+        slope_x, slope_y, std::max(0.0, xx_ - x_ * slope_x), xy_ - x_ * slope_y, std::max(0.0, yy_ - y_ * slope_y),
+        area_};
   }
 
  private:
@@ -62,20 +57,19 @@ struct PlanError {
   double slope_x = 0, slope_y = 0, z0 = 0;  // of the best height
   double szz = 0;
 
-  template <class Real>
-  PlanError(const VerticalQuadric<Real>& q0, const VerticalQuadric<Real>& q1, double dx, double dy, double dz) {
-    const double wx = static_cast<double>(q0.slope_x) - q1.slope_x;
-    const double wy = static_cast<double>(q0.slope_y) - q1.slope_y;
+  PlanError(const VerticalQuadric& q0, const VerticalQuadric& q1, double dx, double dy, double dz) {
+    const double wx = q0.slope_x - q1.slope_x;
+    const double wy = q0.slope_y - q1.slope_y;
     const double apart = q1.slope_x * dx + q1.slope_y * dy - dz;
-    szz = static_cast<double>(q0.area) + q1.area;
+    szz = q0.area + q1.area;
     const double share1 = q1.area / szz;
     slope_x = q0.slope_x - share1 * wx;
     slope_y = q0.slope_y - share1 * wy;
     z0 = -share1 * apart;
     const double weight = q0.area * share1;
-    kxx = static_cast<double>(q0.xx) + q1.xx + weight * wx * wx;
-    kxy = static_cast<double>(q0.xy) + q1.xy + weight * wx * wy;
-    kyy = static_cast<double>(q0.yy) + q1.yy + weight * wy * wy;
+    kxx = q0.xx + q1.xx + weight * wx * wx;
+    kxy = q0.xy + q1.xy + weight * wx * wy;
+    kyy = q0.yy + q1.yy + weight * wy * wy;
     const double rx = q1.xx * dx + q1.xy * dy;
     const double ry = q1.xy * dx + q1.yy * dy;
     kx = rx - weight * wx * apart;

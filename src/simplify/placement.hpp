@@ -30,11 +30,11 @@ struct EdgeEnd {
   LatticePoint position;
   double height = 0;
   VertexKind kind = VertexKind::kInterior;
-  VerticalQuadric<double> quadric;
+  VerticalQuadric quadric;
 };
 
 /// The quadrics of a vertex, one for each channel of its colour, in height units.
-using ChannelQuadrics = std::array<VerticalQuadric<double>, kMaxChannels>;
+using ChannelQuadrics = std::array<VerticalQuadric, kMaxChannels>;
 
 /// The colour of an edge, in height units.
 struct EdgeColour {

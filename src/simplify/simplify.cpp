@@ -80,7 +80,7 @@ class Simplifier {
 
   struct VertexQuadric {
     std::int32_t vertex = kNone;
-    VerticalQuadric<double> quadric;
+    VerticalQuadric quadric;
   };
   static constexpr std::size_t kQuadrics = 2048;
 
@@ -379,7 +379,7 @@ class Simplifier {
       add_plane(sum, middle, a, b);
       a = b;
     });
-    quadrics_[slot] = {v, sum.quadric<double>()};
+    quadrics_[slot] = {v, sum.quadric()};
     if (colours_ != nullptr) sum_colour_quadrics(v, slot);
   }
 
@@ -429,7 +429,7 @@ class Simplifier {
       for_each_out(mesh_, v, [&](std::int32_t h) {
         add_plane(sum, level(v), level(mesh_.destination(h)), level(mesh_.origin[at(WindowMesh::previous(h))]));
       });
-      colour_quadrics_[slot][c] = sum.quadric<double>();
+      colour_quadrics_[slot][c] = sum.quadric();
     }
   }
 

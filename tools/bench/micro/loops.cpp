@@ -32,8 +32,8 @@ BENCHMARK(sample_sweep)->Arg(2)->Arg(5)->Arg(20)->Arg(100);
 
 /// An edge between two vertices of a rough surface.
 struct RoughEdge {
-  VerticalQuadric<float> quadric0;
-  VerticalQuadric<float> quadric1;
+  VerticalQuadric quadric0;
+  VerticalQuadric quadric1;
 
   RoughEdge() {
     VerticalSum sum0;
@@ -42,11 +42,11 @@ struct RoughEdge {
       sum0.add(0.3 * std::cos(i), 0.2 * std::sin(i), 4);
       sum1.add(0.2 * std::sin(i), 0.4 * std::cos(i), 3);
     }
-    quadric0 = sum0.quadric<float>();
-    quadric1 = sum1.quadric<float>();
+    quadric0 = sum0.quadric();
+    quadric1 = sum1.quadric();
   }
   Edge edge() const {
-    return {{{160, 160}, 10, VertexKind::kInterior, &quadric0}, {{192, 176}, 11, VertexKind::kInterior, &quadric1}};
+    return {{{160, 160}, 10, VertexKind::kInterior, quadric0}, {{192, 176}, 11, VertexKind::kInterior, quadric1}};
   }
 };
 
