@@ -70,7 +70,7 @@ double urgency(double squared, const Fit& fit) {
 }
 
 void pull(const WalkedSurface& surface, const Nearest& there, double weight, Fit& fit) {
-  const Vec<3>& across = there.squared > kTiny * kTiny ? there.off : surface.facets[at(there.halfedge / 3)].normal;
+  const Vec<3> across = there.squared > kTiny * kTiny ? there.off : normal_of(surface, there.halfedge);
   const double length = std::sqrt(dot(across, across));
   if (!(length > 0)) return;
   const Vec<3> direction = times(across, 1 / length);
@@ -89,7 +89,7 @@ void pull(const WalkedSurface& surface, const Nearest& there, double weight, Fit
 // Where each sample lies now; calls found(surface, sample, nearest) for those that lie anywhere.
 template <class Found>
 void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit, Found&& found) {
-  const WalkedSurface surface(mesh, mesh.position);
+  const WalkedSurface surface{mesh, mesh.position};
   for (std::size_t i = 0; i < samples.place.size(); ++i) {
     if (!mesh.is_alive(samples.vertex[i])) continue;
     const Nearest there = nearest(surface, samples.place[i], fit.triangle[i], samples.vertex[i]);
@@ -124,7 +124,7 @@ void find_astray(const SurfaceMesh& mesh, Fit& fit) {
 bool has_turned_edges(const WalkedSurface& surface) {
   for (std::int32_t h = 0; h < surface.mesh.n_halfedges(); ++h) {
     const std::int32_t g = surface.mesh.twin[at(h)];
-    if (g != kNone && dot(surface.facets[at(h / 3)].normal, surface.facets[at(g / 3)].normal) < 0) return true;
+    if (g != kNone && dot(normal_of(surface, h), normal_of(surface, g)) < 0) return true;
   }
   return false;
 }
@@ -137,7 +137,7 @@ bool is_astray(const WalkedSurface& input, const Fit& fit, const Vec<3>& place, 
   const Nearest there = nearest(input, place, fit.below[at(v)], v);
   if (there.halfedge == kNone) return true;
   if (there.squared > fit.largest) return true;
-  return !fit.is_input_turned && dot(normal, input.facets[at(there.halfedge / 3)].normal) < 0;
+  return !fit.is_input_turned && dot(normal, normal_of(input, there.halfedge)) < 0;
 }
 
 // The corners of triangles that are, by their middles and those of their sides.
@@ -266,7 +266,7 @@ Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples, bool may_flip) {
   fit.squared.assign(samples.place.size(), 0);
   fit.home = mesh.position;
   fit.below.assign(mesh.position.size(), kNone);
-  const WalkedSurface input(samples.triangles, samples.place);
+  const WalkedSurface input{samples.triangles, samples.place};
   fit.is_input_turned = has_turned_edges(input);
   find_nearest(mesh, samples, fit);
   fit.largest = *std::max_element(fit.squared.begin(), fit.squared.end());
@@ -319,7 +319,7 @@ void step_values(const SurfaceMesh& mesh, const WalkedSurface& surface, WedgeVal
 
 void fit_values(const SurfaceMesh& mesh, WedgeValues& values, const FitSamples& samples, Fit& fit) {
   constexpr int kValueRounds = 4;
-  const WalkedSurface surface(mesh, mesh.position);
+  const WalkedSurface surface{mesh, mesh.position};
   for (int round = 0; round < kValueRounds; ++round) step_values(mesh, surface, values, samples, fit);
 }
 

@@ -1,7 +1,5 @@
 #include "simplify/surface_walk.hpp"
 
-#include <cmath>
-
 namespace tinsmith {
 
 namespace {
@@ -12,13 +10,6 @@ Vec<3> times(const Vec<3>& v, double factor) { return {v[0] * factor, v[1] * fac
 
 const Vec<3>& point(const WalkedSurface& surface, std::int32_t h) {
   return surface.position[at(surface.mesh.origin[at(h)])];
-}
-
-WalkedFacet facet_of(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c) {
-  const Vec<3> n = cross(b - a, c - a);
-  const double squared = dot(n, n);
-  return {a, times(cross(c - a, n), 1 / squared), times(cross(n, b - a), 1 / squared),
-          times(n, 1 / std::sqrt(squared))};
 }
 
 // On the side from corner k of the triangle of h, the first of its halfedges.
@@ -39,15 +30,22 @@ void improve_on_side(const WalkedSurface& surface, std::int32_t h, std::int32_t 
 
 // Whether the triangle of h, the first of its halfedges, is nearer to p than the best so far.
 bool improve(const WalkedSurface& surface, std::int32_t h, const Vec<3>& p, Nearest& best) {
-  const WalkedFacet& facet = surface.facets[at(h / 3)];
-  const Vec<3> d = p - facet.corner;
-  const double height = dot(d, facet.normal);
-  if (height * height >= best.squared) return false;
-  const double share1 = dot(d, facet.dual1);
-  const double share2 = dot(d, facet.dual2);
+  // Made anew each time: that takes less time than fetching it, and no memory. Without area the shares are no
+  // numbers, so that nothing lies over it.
+  const Vec<3>& a = point(surface, h);
+  const Vec<3> side1 = point(surface, h + 1) - a;
+  const Vec<3> side2 = point(surface, h + 2) - a;
+  const Vec<3> normal = cross(side1, side2);
+  const Vec<3> d = p - a;
+  const double inverse = 1 / dot(normal, normal);
+  const double height = dot(d, normal);  // times the length of the normal
+  const double squared = height * height * inverse;
+  if (squared >= best.squared) return false;
+  const double share1 = dot(cross(d, side2), normal) * inverse;
+  const double share2 = dot(cross(side1, d), normal) * inverse;
   const double share0 = 1 - share1 - share2;
   if (share0 >= 0 && share1 >= 0 && share2 >= 0) {
-    best = {height * height, h, {share0, share1, share2}, times(facet.normal, height)};
+    best = {squared, h, {share0, share1, share2}, times(normal, height * inverse)};
     return true;
   }
   // The nearest point lies on a side that p is beyond.
@@ -85,12 +83,10 @@ void descend(const WalkedSurface& surface, const Vec<3>& p, double enough, Neare
 
 }  // namespace
 
-WalkedSurface::WalkedSurface(const Halfedges& edges, const std::vector<Vec<3>>& places)
-    : mesh(edges), position(places), facets(edges.origin.size() / 3) {
-  for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
-    if (mesh.origin[at(h)] != kNone)
-      facets[at(h / 3)] = facet_of(point(*this, h), point(*this, h + 1), point(*this, h + 2));
-  }
+Vec<3> normal_of(const WalkedSurface& surface, std::int32_t h) {
+  const std::int32_t first = h - h % 3;
+  const Vec<3>& a = point(surface, first);
+  return cross(point(surface, first + 1) - a, point(surface, first + 2) - a);
 }
 
 Nearest nearest(const WalkedSurface& surface, const Vec<3>& p, std::int32_t triangle, std::int32_t v,

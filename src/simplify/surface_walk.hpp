@@ -11,23 +11,14 @@
 
 namespace tinsmith {
 
-/// A triangle as the search wants it. One without area has normal and duals that are no numbers, so that nothing
-/// lies over it.
-struct WalkedFacet {
-  Vec<3> corner;
-  Vec<3> dual1;  // the share of corner 1 is dual1 . (p - corner), as dual2 for corner 2
-  Vec<3> dual2;
-  Vec<3> normal;  // of length 1
-};
-
 /// Triangles to walk over; edges and places must outlive it.
 struct WalkedSurface {
-  WalkedSurface(const Halfedges& edges, const std::vector<Vec<3>>& places);
-
   const Halfedges& mesh;
   const std::vector<Vec<3>>& position;  // by vertex; there may be more
-  std::vector<WalkedFacet> facets;      // by triangle
 };
+
+/// The normal, of any length, of the triangle of h.
+Vec<3> normal_of(const WalkedSurface& surface, std::int32_t h);
 
 struct Nearest {
   double squared = std::numeric_limits<double>::infinity();
