@@ -14,23 +14,35 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Representatives of vertices at bit-identical places: the first of each place.
 std::vector<std::uint32_t> first_at_place(const Surface& surface) {
-  std::vector<std::uint32_t> order(surface.position.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t u, std::uint32_t v) {
-    return surface.position[u] != surface.position[v] ? surface.position[u] < surface.position[v] : u < v;
-  });
+  struct Placed {
+    Vec<3> place;
+    std::uint32_t vertex;
+    auto operator<=>(const Placed&) const = default;
+  };
+  std::vector<Placed> order;
+  order.reserve(surface.position.size());
+  for (std::uint32_t v = 0; v < surface.position.size(); ++v) order.push_back({surface.position[v], v});
+  std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> first(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && surface.position[order[i]] == surface.position[order[i - 1]];
-    first[order[i]] = is_same ? first[order[i - 1]] : order[i];
+    const bool is_same = i > 0 && order[i].place == order[i - 1].place;
+    first[order[i].vertex] = is_same ? first[order[i - 1].vertex] : order[i].vertex;
   }
   return first;
+}
+
+bool are_all_different(const std::vector<std::uint32_t>& first) {
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    if (first[v] != v) return false;
+  }
+  return true;
 }
 
 // The same triangles over one vertex for each place. Empty when that is no manifold with the same triangles: two
 // sheets that lie on each other, for example.
 ManifoldSurface welded(const ManifoldSurface& pieces) {
   const std::vector<std::uint32_t> first = first_at_place(pieces.surface);
+  if (are_all_different(first)) return pieces;
   Surface surface;
   surface.position = pieces.surface.position;
   for (const auto& [a, b, c] : pieces.surface.triangles)
