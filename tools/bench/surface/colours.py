@@ -1,6 +1,7 @@
 """What colours gain and shapes lose: tinsmith's three forms of quadrics beside the geometry alone, on a mesh coloured
-by the place (a checker of 12 cells along the longest side, or a smooth gradient)."""
+by the place (a checker of 12 or 4 cells along the longest side, or a smooth gradient)."""
 
+import functools
 import json
 import subprocess
 
@@ -17,8 +18,8 @@ HEADER = ("| colours | triangles asked | form | bytes per vertex | colour RMSE |
           "geometry alone's | s |\n|---|---|---|---|---|---|---|---|---|")
 
 
-def _checker(place):
-    odd = np.floor(12 * place).astype(int).sum(axis=1) % 2
+def _checker(n_cells, place):
+    odd = np.floor(n_cells * place).astype(int).sum(axis=1) % 2
     return np.where(odd[:, None] == 1, [230, 40, 40], [30, 60, 220])
 
 
@@ -26,7 +27,9 @@ def _gradient(place):
     return 255 * (0.5 + 0.5 * np.sin(4 * place + [0, 1, 2]))
 
 
-PATTERNS = {"checker": _checker, "gradient": _gradient}
+# At 1 % a bunny has 377 vertices: fewer than the finer checker has cells, of which none can have an edge of its own.
+PATTERNS = {"checker": functools.partial(_checker, 12), "coarse-checker": functools.partial(_checker, 4),
+            "gradient": _gradient}
 
 
 def _write(path, vertices, triangles, colours):
