@@ -17,12 +17,13 @@ std::vector<std::uint32_t> first_at_place(const Surface& surface) {
   struct Placed {
     Vec<3> place;
     std::uint32_t vertex;
-    auto operator<=>(const Placed&) const = default;
   };
   std::vector<Placed> order;
   order.reserve(surface.position.size());
   for (std::uint32_t v = 0; v < surface.position.size(); ++v) order.push_back({surface.position[v], v});
-  std::sort(order.begin(), order.end());
+  std::sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) {
+    return a.place != b.place ? a.place < b.place : a.vertex < b.vertex;
+  });
   std::vector<std::uint32_t> first(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool is_same = i > 0 && order[i].place == order[i - 1].place;

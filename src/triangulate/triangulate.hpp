@@ -12,10 +12,10 @@ struct TriangulateOptions {
 };
 
 /// The constrained Delaunay triangulation of the samples that a surface within the tolerance needs, bounded by
-/// the exact outline of the window's valid cells. Every vertex is a sample. The vertices on the window's border
-/// depend on the samples of that border only, so that neighbours agree. `samples` must reach one sample beyond
-/// the window on each side (void outside the raster). Kinds are not set. A window without a valid cell gives an
-/// empty mesh.
+/// the exact outline of the window's valid cells; of a window of more than 96 cells a side, one for each of its
+/// parts, whose common lines are edges. Every vertex is a sample. The vertices on the window's border depend on the
+/// samples of that border only, so that neighbours agree. `samples` must reach one sample beyond the window on each
+/// side (void outside the raster). Kinds are not set. A window without a valid cell gives an empty mesh.
 WindowMesh triangulate(const HeightGrid& samples, const GridRect& window, const TriangulateOptions& options);
 
 }  // namespace tinsmith
