@@ -66,16 +66,18 @@ TEST(PlanError, EqualsTheDirectSumOfSquares) {
   }
 }
 
-TEST(PlanError, IsNearlyZeroOnASteepPlane) {
+// Of an edge to (4, 8) whose ends' triangles all lie in one plane.
+PlanError on_one_plane(double slope_x, double slope_y) {
   VerticalSum sum0;
   VerticalSum sum1;
   for (const double area : {1.0, 2.0, 0.5}) {
-    sum0.add(1234.5, -987.25, area);
-    sum1.add(1234.5, -987.25, 2 * area);
+    sum0.add(slope_x, slope_y, area);
+    sum1.add(slope_x, slope_y, 2 * area);
   }
-  const PlanError error(sum0.quadric(), sum1.quadric(), 4, 8, 1234.5 * 4 - 987.25 * 8);
-  EXPECT_NEAR(error.at(2, 3), 0, 1e-9);
+  return {sum0.quadric(), sum1.quadric(), 4, 8, slope_x * 4 + slope_y * 8};
 }
+
+TEST(PlanError, IsNearlyZeroOnASteepPlane) { EXPECT_NEAR(on_one_plane(1234.5, -987.25).at(2, 3), 0, 1e-9); }
 
 TEST(PlanError, ItsHeightIsTheLeastOfAllHeights) {
   std::mt19937_64 random(22);
@@ -92,13 +94,7 @@ TEST(PlanError, ItsHeightIsTheLeastOfAllHeights) {
 }
 
 TEST(PlanError, IsZeroOnOnePlane) {
-  VerticalSum sum0;
-  VerticalSum sum1;
-  for (const double area : {1.0, 2.0, 0.5}) {
-    sum0.add(0.75, -0.25, area);
-    sum1.add(0.75, -0.25, 2 * area);
-  }
-  const PlanError error(sum0.quadric(), sum1.quadric(), 4, 8, 0.75 * 4 - 0.25 * 8);
+  const PlanError error = on_one_plane(0.75, -0.25);
   EXPECT_EQ(error.at(2, 3), 0);
   EXPECT_DOUBLE_EQ(error.height(2, 3), 0.75 * 2 - 0.25 * 3);
   EXPECT_GT(error.at(2, 3, 5), 0);
