@@ -15,6 +15,7 @@
 #include <span>
 #include <utility>
 
+#include "mesh/halfedges.hpp"
 #include "tinsmith/error.hpp"
 
 namespace tinsmith {
@@ -199,6 +200,56 @@ Triangles without_duplicated(const Triangles& triangles, std::size_t n_vertices,
   return kept;
 }
 
+// ---------------------------------------------------------------- what is a surface already
+
+/// Whether another triangle has the same vertices.
+bool is_duplicated(const Halfedges& mesh, std::int32_t h) {
+  const auto beyond = [&](std::int32_t k) {
+    const std::int32_t g = mesh.twin[static_cast<std::size_t>(h + k)];
+    return g == kNone ? kNone : g / 3;
+  };
+  return beyond(0) != kNone && beyond(0) == beyond(1) && beyond(0) == beyond(2);
+}
+
+/// Whether there is nothing to mend, as in most files: vertices have one fan each, from which no neighbour is met
+/// twice, so that no side is there twice, and no two triangles lie on each other.
+bool is_surface(const Triangles& triangles, std::size_t n_vertices) {
+  constexpr std::size_t kLargest = std::numeric_limits<std::int32_t>::max() / 3;
+  if (triangles.size() > kLargest || n_vertices > kLargest) return false;
+  Halfedges mesh;
+  std::vector<std::array<std::int32_t, 3>> corners;
+  corners.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles)
+    corners.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c)});
+  if (!connect(mesh, corners, n_vertices).empty()) return false;
+  std::vector<std::int32_t> met_from(n_vertices, kNone);
+  bool is_met_twice = false;
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(n_vertices) && !is_met_twice; ++v) {
+    if (!mesh.is_alive(v)) return false;
+    for_each_out(mesh, v, [&](std::int32_t h) {
+      std::int32_t& from = met_from[static_cast<std::size_t>(mesh.destination(h))];
+      is_met_twice = is_met_twice || from == v;
+      from = v;
+    });
+  }
+  if (is_met_twice) return false;
+  for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
+    if (is_duplicated(mesh, h)) return false;
+  }
+  return true;
+}
+
+/// The original with these triangles and the same vertices.
+ManifoldSurface unchanged(const Surface& original, Triangles&& triangles) {
+  const std::size_t n_vertices = original.position.size();
+  ManifoldSurface result;
+  result.surface = {original.position, std::move(triangles), original.attributes};
+  result.is_locked.assign(n_vertices, 0);
+  result.original_vertex.resize(n_vertices);
+  std::iota(result.original_vertex.begin(), result.original_vertex.end(), 0U);
+  return result;
+}
+
 // ---------------------------------------------------------------- orientation
 
 using Side = Entry<std::uint32_t>;  // key: the edge's higher vertex; item: the corner where the side begins
@@ -379,7 +430,9 @@ ManifoldSurface manifold_of(const Surface& surface, SurfaceDefects& defects) {
   check_triangles(surface);
   defects = {};
   const std::size_t n_vertices = surface.position.size();
-  const Triangles triangles = without_duplicated(without_degenerate(surface, defects), n_vertices, defects);
+  Triangles proper = without_degenerate(surface, defects);
+  if (is_surface(proper, n_vertices)) return unchanged(surface, std::move(proper));
+  const Triangles triangles = without_duplicated(proper, n_vertices, defects);
   const Buckets<std::uint32_t> edges = find_edges(triangles, n_vertices);
   const std::vector<std::uint8_t> is_flipped = find_flipped(triangles, edges);
   defects.flipped_triangles = static_cast<std::uint64_t>(std::count(is_flipped.begin(), is_flipped.end(), 1));

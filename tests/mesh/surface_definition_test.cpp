@@ -459,5 +459,36 @@ TEST(SurfaceDefinition, AnyTrianglesBecomeManifoldAndNoneIsLost) {
   for (const int n : n_with) EXPECT_GE(n, kRounds / 20);
 }
 
+/// The same with one more vertex at the end, without triangles: it is never taken as it is.
+Surface with_lone_vertex(Surface s) {
+  s.position.push_back({-1, -1, -1});
+  for (SurfaceAttribute& a : s.attributes)
+    a.values.resize(a.values.size() + static_cast<std::size_t>(a.components()));
+  return s;
+}
+
+TEST(SurfaceDefinition, WhatIsTakenAsItIsIsWhatMendingLeaves) {
+  for (int seed = 0; seed < 1500 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 generator(static_cast<std::uint64_t>(seed));
+    const Surface any = seed % 2 == 0 ? random_soup(generator) : random_damage(generator);
+    for (const Surface& s : {any, mend(any).result.surface}) {
+      auto [defects, result] = mend(s);
+      const auto [with_lone, wanted] = mend(with_lone_vertex(s));
+      ++defects.unreferenced_vertices;
+      expect_defects(defects, with_lone);
+      expect_same(result.surface, wanted.surface);
+      EXPECT_EQ(result.original_vertex, wanted.original_vertex);
+      EXPECT_EQ(result.is_locked, wanted.is_locked);
+    }
+  }
+}
+
+TEST(SurfaceDefinition, FanThatMeetsANeighbourTwiceIsNoSurface) {
+  // Around vertex 0 one fan of five triangles, that has three at the edge to vertex 1.
+  const Surface s = drawing(6, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 4}, {0, 4, 5}});
+  EXPECT_EQ(mend(s).defects.non_manifold_edges, 1U);
+}
+
 }  // namespace
 }  // namespace tinsmith::test
