@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "mesh/surface_definition.hpp"
 
@@ -39,11 +40,9 @@ bool are_all_different(const std::vector<std::uint32_t>& first) {
   return true;
 }
 
-// The same triangles over one vertex for each place. Empty when that is no manifold with the same triangles: two
+// The same triangles over one vertex for each place. None when that is no manifold with the same triangles: two
 // sheets that lie on each other, for example.
-ManifoldSurface welded(const ManifoldSurface& pieces) {
-  const std::vector<std::uint32_t> first = first_at_place(pieces.surface);
-  if (are_all_different(first)) return pieces;
+std::optional<ManifoldSurface> welded(const ManifoldSurface& pieces, const std::vector<std::uint32_t>& first) {
   Surface surface;
   surface.position = pieces.surface.position;
   for (const auto& [a, b, c] : pieces.surface.triangles)
@@ -52,7 +51,7 @@ ManifoldSurface welded(const ManifoldSurface& pieces) {
   ManifoldSurface whole = manifold_of(surface, defects);
   const bool has_lost = defects.duplicated_triangles + defects.flipped_triangles > 0 ||
                         whole.surface.triangles.size() != pieces.surface.triangles.size();
-  if (has_lost) return {};
+  if (has_lost) return std::nullopt;
   for (std::size_t v = 0; v < whole.is_locked.size(); ++v)
     whole.is_locked[v] = whole.is_locked[v] || pieces.is_locked[whole.original_vertex[v]];
   return whole;
@@ -65,8 +64,7 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
 
 // Where pieces meet without being welded they must not part. Vertices that edges without length join are of one
 // piece, and free to collapse.
-void lock_coincident(ManifoldSurface& pieces) {
-  const std::vector<std::uint32_t> first = first_at_place(pieces.surface);
+void lock_coincident(ManifoldSurface& pieces, const std::vector<std::uint32_t>& first) {
   std::vector<std::uint32_t> parent(first.size());
   std::iota(parent.begin(), parent.end(), 0U);
   for (const auto& t : pieces.surface.triangles) {
@@ -125,12 +123,15 @@ std::vector<std::uint32_t> add_vertices(SurfaceMesh& mesh, const ManifoldSurface
     std::uint32_t vertex;
   };
   std::vector<Placed> order;
+  order.reserve(surface.surface.position.size());
   for (std::uint32_t v = 0; v < surface.surface.position.size(); ++v)
     order.push_back({place_on_curve(scaled(mesh, surface.surface.position[v])), v});
   std::sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) {
     return a.place != b.place ? a.place < b.place : a.vertex < b.vertex;
   });
   std::vector<std::uint32_t> number(order.size());
+  mesh.position.reserve(order.size());
+  mesh.kind.reserve(order.size());
   for (const auto& [place, v] : order) {
     number[v] = static_cast<std::uint32_t>(mesh.position.size());
     mesh.position.push_back(scaled(mesh, surface.surface.position[v]));
@@ -243,14 +244,16 @@ double triangle_area(const SurfaceMesh& mesh, std::int32_t h) {
 
 SurfaceMesh surface_mesh_of(const Surface& surface, SurfaceDefects& defects) {
   ManifoldSurface pieces = manifold_of(surface, defects);
-  ManifoldSurface whole = welded(pieces);
-  if (whole.surface.triangles.empty()) {
-    lock_coincident(pieces);
-    whole = pieces;
+  const std::vector<std::uint32_t> first = first_at_place(pieces.surface);
+  std::optional<ManifoldSurface> whole;
+  if (!are_all_different(first)) {
+    whole = welded(pieces, first);
+    if (!whole) lock_coincident(pieces, first);
   }
+  const ManifoldSurface& places = whole ? *whole : pieces;
   SurfaceMesh mesh;
-  find_scale(mesh, whole.surface.position);
-  add_triangles(mesh, whole, add_vertices(mesh, whole));
+  find_scale(mesh, places.surface.position);
+  add_triangles(mesh, places, add_vertices(mesh, places));
   mesh.mean_area = mean_area(mesh);
   add_wedges(mesh, pieces);
   return mesh;
@@ -274,7 +277,7 @@ std::uint64_t count_components(const SurfaceMesh& mesh) {
 
 void mark_features(SurfaceMesh& mesh, const SimplifySurfaceOptions& options, SimplifySurfaceReport& report) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
-  const double least_cosine = options.crease ? std::cos(*options.crease * kDegree) : -2;
+  const double least_cosine = options.crease ? std::cos(*options.crease * kDegree) : -1;
   std::vector<VertexPair> list;
   for (const auto& [a, b] : options.feature_edges) list.push_back(ordered(a, b));
   std::sort(list.begin(), list.end());
@@ -287,7 +290,8 @@ void mark_features(SurfaceMesh& mesh, const SimplifySurfaceOptions& options, Sim
     if (g == kNone) {
       ++report.border_edges;
     } else {
-      if (!is_seam(mesh, h) && !is_crease(mesh, h, least_cosine) && (list.empty() || !is_listed(mesh, h, list)))
+      if (!is_seam(mesh, h) && !(options.crease && is_crease(mesh, h, least_cosine)) &&
+          (list.empty() || !is_listed(mesh, h, list)))
         continue;
       ++report.feature_edges;
       mesh.is_feature[at(g)] = 1;
