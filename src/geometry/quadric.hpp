@@ -3,6 +3,7 @@
 // paper's tables 1 and 2). Planes: the paper's eq. 1-5 (Garland and Heckbert 1997); triangles in more than three
 // dimensions: Garland and Heckbert 1998.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -127,26 +128,28 @@ bool solve(const Quadric<N>& quadric, const Vec<N>& r, double relative, Vec<N>& 
   for (std::size_t i = 0; i < N; ++i) {
     for (std::size_t j = 0; j < N; ++j) {
       rows[i][j] = quadric.q[Quadric<N>::a(i, j)];
-      largest = std::fmax(largest, std::abs(rows[i][j]));
+      largest = std::max(largest, std::abs(rows[i][j]));
     }
     rows[i][N] = r[i];
   }
+  Vec<N> inverse;  // of the pivots: divisions are slow
   for (std::size_t k = 0; k < N; ++k) {
     std::size_t pivot = k;
     for (std::size_t i = k + 1; i < N; ++i) {
       if (std::abs(rows[i][k]) > std::abs(rows[pivot][k])) pivot = i;
     }
     if (!(std::abs(rows[pivot][k]) > relative * largest)) return false;
-    std::swap(rows[k], rows[pivot]);
+    if (pivot != k) std::swap(rows[k], rows[pivot]);
+    inverse[k] = 1 / rows[k][k];
     for (std::size_t i = k + 1; i < N; ++i) {
-      const double factor = rows[i][k] / rows[k][k];
-      for (std::size_t j = k; j <= N; ++j) rows[i][j] -= factor * rows[k][j];
+      const double factor = rows[i][k] * inverse[k];
+      for (std::size_t j = k + 1; j <= N; ++j) rows[i][j] -= factor * rows[k][j];
     }
   }
   for (std::size_t k = N; k-- > 0;) {
     double sum = rows[k][N];
     for (std::size_t j = k + 1; j < N; ++j) sum -= rows[k][j] * x[j];
-    x[k] = sum / rows[k][k];
+    x[k] = sum * inverse[k];
   }
   return true;
 }
