@@ -88,6 +88,11 @@ int count_turned(const SurfaceStar& star, const Vec<3>& p) {
   return count_turned_with(star, [&](const LinkSide&) -> const Vec<3>& { return p; });
 }
 
+bool turns_more(const SurfaceStar& star, const Vec<3>& p) {
+  const int n_turned = count_turned(star, p);
+  return n_turned > 0 && n_turned > count_turned(star);
+}
+
 void add_gone(const SurfaceMesh& mesh, std::int32_t h, SurfaceStar& star) {
   star.gone.push_back({point(mesh, h), point(mesh, Halfedges::next(h)), point(mesh, Halfedges::previous(h))});
 }
@@ -96,10 +101,10 @@ double squared_distance(const Vec<3>& q, const std::array<Vec<3>, 3>& triangle) 
   return squared_distance_to_triangle(q, triangle[0], triangle[1], triangle[2]);
 }
 
-double squared_distance(const Vec<3>& q, const SurfaceStar& star, const Vec<3>& p) {
+double squared_distance(const Vec<3>& q, const SurfaceStar& star, const Vec<3>& p, double enough) {
   double least = std::numeric_limits<double>::infinity();
-  for (const LinkSide& side : star.sides)
-    least = std::min(least, squared_distance_to_triangle(q, p, side.a, side.b));
+  for (std::size_t i = 0; i < star.sides.size() && least > enough; ++i)
+    least = std::min(least, squared_distance_to_triangle(q, p, star.sides[i].a, star.sides[i].b));
   return least;
 }
 

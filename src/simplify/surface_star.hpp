@@ -27,9 +27,12 @@ void add_gone(const SurfaceMesh& mesh, std::int32_t h, SurfaceStar& star);
 int count_turned(const SurfaceStar& star);
 int count_turned(const SurfaceStar& star, const Vec<3>& p);
 
+/// Whether there are more of them with the vertex at p.
+bool turns_more(const SurfaceStar& star, const Vec<3>& p);
+
 double squared_distance(const Vec<3>& q, const std::array<Vec<3>, 3>& triangle);
-/// From q to the triangles of the star with the vertex at p.
-double squared_distance(const Vec<3>& q, const SurfaceStar& star, const Vec<3>& p);
+/// From q to the triangles of the star with the vertex at p. What is at most `enough` need not be the least.
+double squared_distance(const Vec<3>& q, const SurfaceStar& star, const Vec<3>& p, double enough);
 /// The farthest from the star as it is, among middles of the triangles and of their inner sides with the vertex at
 /// p.
 double squared_distance_back(const SurfaceStar& star, const Vec<3>& p);
