@@ -86,13 +86,23 @@ void pull(const WalkedSurface& surface, const Nearest& there, double weight, Fit
   }
 }
 
-// Where each sample lies now; calls found(surface, sample, nearest) for those that lie anywhere.
+// The middles of triangles that are left are sought there first.
+void start_nearby(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
+  fit.triangle.assign(samples.place.size(), kNone);
+  const std::size_t first_middle = mesh.position.size();
+  for (std::size_t h = 0; h < mesh.origin.size(); h += 3) {
+    if (mesh.origin[h] != kNone) fit.triangle[first_middle + h / 3] = static_cast<std::int32_t>(h);
+  }
+}
+
+// Where each sample lies now; calls found(surface, sample, nearest) for those that lie anywhere. Where one is
+// nearer than the square root of `enough` it may lie nearer yet.
 template <class Found>
-void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit, Found&& found) {
+void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, double enough, Fit& fit, Found&& found) {
   const WalkedSurface surface{mesh, mesh.position};
   for (std::size_t i = 0; i < samples.place.size(); ++i) {
     if (!mesh.is_alive(samples.vertex[i])) continue;
-    const Nearest there = nearest(surface, samples.place[i], fit.triangle[i], samples.vertex[i]);
+    const Nearest there = nearest(surface, samples.place[i], fit.triangle[i], samples.vertex[i], enough);
     fit.triangle[i] = there.halfedge;
     if (there.halfedge == kNone) continue;
     fit.squared[i] = static_cast<float>(there.squared);
@@ -100,14 +110,14 @@ void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit, 
   }
 }
 
-void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
-  find_nearest(mesh, samples, fit, [](const WalkedSurface&, std::size_t, const Nearest&) {});
+void find_nearest(const SurfaceMesh& mesh, const FitSamples& samples, double enough, Fit& fit) {
+  find_nearest(mesh, samples, enough, fit, [](const WalkedSurface&, std::size_t, const Nearest&) {});
 }
 
 // And how they pull at the vertices.
 void find_pulls(const SurfaceMesh& mesh, const FitSamples& samples, Fit& fit) {
   fit.pulls.assign(mesh.position.size(), {});
-  find_nearest(mesh, samples, fit, [&](const WalkedSurface& surface, std::size_t i, const Nearest& there) {
+  find_nearest(mesh, samples, 0, fit, [&](const WalkedSurface& surface, std::size_t i, const Nearest& there) {
     pull(surface, there, samples.weight[i], fit);
   });
 }
@@ -124,7 +134,7 @@ void find_astray(const SurfaceMesh& mesh, Fit& fit) {
 bool has_turned_edges(const WalkedSurface& surface) {
   for (std::int32_t h = 0; h < surface.mesh.n_halfedges(); ++h) {
     const std::int32_t g = surface.mesh.twin[at(h)];
-    if (g != kNone && dot(normal_of(surface, h), normal_of(surface, g)) < 0) return true;
+    if (g > h && dot(normal_of(surface, h), normal_of(surface, g)) < 0) return true;
   }
   return false;
 }
@@ -177,7 +187,7 @@ void move_by(SurfaceMesh& mesh, std::int32_t v, const Vec<3>& step, SurfaceStar&
   const Vec<3> now = mesh.position[at(v)] - times(step, -1);
   clear(star);
   for_each_out(mesh, v, [&](std::int32_t h) { add_side(mesh, h, star); });
-  if (!is_inside_half_spaces(star.sides, now) || count_turned(star, now) > count_turned(star)) return;
+  if (!is_inside_half_spaces(star.sides, now) || turns_more(star, now)) return;
   mesh.position[at(v)] = now;
 }
 
@@ -262,13 +272,13 @@ void flip(const WalkedSurface& input, SurfaceMesh& mesh, const FitSamples& sampl
 
 Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples, bool may_flip) {
   Fit fit;
-  fit.triangle.assign(samples.place.size(), kNone);
+  start_nearby(mesh, samples, fit);
   fit.squared.assign(samples.place.size(), 0);
   fit.home = mesh.position;
   fit.below.assign(mesh.position.size(), kNone);
   const WalkedSurface input{samples.triangles, samples.place};
   fit.is_input_turned = has_turned_edges(input);
-  find_nearest(mesh, samples, fit);
+  find_nearest(mesh, samples, 0, fit);
   fit.largest = *std::max_element(fit.squared.begin(), fit.squared.end());
   for (int round = 0; round < kRounds; ++round) {
     if (may_flip && round < kFlipRounds) flip(input, mesh, samples, fit);
@@ -277,7 +287,7 @@ Fit fit_places(SurfaceMesh& mesh, const FitSamples& samples, bool may_flip) {
     draw_back(mesh, fit);
     step_all(input, mesh, fit);
   }
-  find_nearest(mesh, samples, fit);
+  find_nearest(mesh, samples, fit.largest, fit);
   find_astray(mesh, fit);
   find_astray_back(input, mesh, fit);
   draw_back(mesh, fit);
@@ -334,6 +344,10 @@ void follow_collapses(const SurfaceMesh& mesh, std::vector<std::int32_t>& vertex
 
 FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const SimplifySurfaceOptions& options) {
   FitSamples samples;
+  const std::size_t n_samples = mesh.position.size() + mesh.original_triangle.size();
+  samples.place.reserve(n_samples);
+  samples.weight.reserve(n_samples);
+  samples.vertex.reserve(n_samples);
   samples.place = mesh.position;
   samples.triangles = mesh;
   samples.weight.assign(mesh.position.size(), 0);

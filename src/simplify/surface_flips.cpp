@@ -106,11 +106,17 @@ int count_turned(const SurfaceMesh& mesh, const std::array<Triangle, 2>& two,
   return n;
 }
 
-bool keeps_shape(const SurfaceMesh& mesh, const Quadrilateral& q) {
-  for (const Triangle& t : q.after) {  // as seen along the mean normal of the two
+// As seen along the mean normal of its triangles.
+bool is_convex(const Quadrilateral& q) {
+  const Vec<3> n0 = normal_of(q.before[0]);
+  const Vec<3> n1 = normal_of(q.before[1]);
+  return std::all_of(q.after.begin(), q.after.end(), [&](const Triangle& t) {
     const Vec<3> n = normal_of(t);
-    if (!(dot(n, normal_of(q.before[0])) + dot(n, normal_of(q.before[1])) > 0)) return false;
-  }
+    return dot(n, n0) + dot(n, n1) > 0;
+  });
+}
+
+bool keeps_shape(const SurfaceMesh& mesh, const Quadrilateral& q) {
   const double thinnest = std::min(thickness(q.after[0]), thickness(q.after[1]));
   if (!(thinnest > std::min(kThin, 0.5 * std::min(thickness(q.before[0]), thickness(q.before[1]))))) return false;
   const std::int32_t bc = Halfedges::next(q.h);
@@ -190,7 +196,7 @@ void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsAstra
       continue;
     const Quadrilateral q(mesh, h);
     if (is_flipped[at(h / 3)] || is_flipped[at(q.g / 3)] || is_seam(mesh, q)) continue;
-    if (!is_nearer(samples, by_triangle, q) || !keeps_shape(mesh, q)) continue;
+    if (!is_convex(q) || !is_nearer(samples, by_triangle, q) || !keeps_shape(mesh, q)) continue;
     if (q.c == q.d || has_edge(mesh, q.c, q.d) || goes_astray(q, is_astray)) continue;
     flip(mesh, q);
     is_flipped[at(h / 3)] = is_flipped[at(q.g / 3)] = 1;
