@@ -52,7 +52,7 @@ def arguments():
     parser.add_argument("--tool", action="append", choices=list(TOOLS), help="(default: all)")
     parser.add_argument("--option", default="", help="more options for tinsmith simplify, in one word")
     parser.add_argument("--colours", action="store_true", help="also the forms of quadrics on a coloured bunny")
-    parser.add_argument("--repeat", type=int, default=1, help="runs of each, of which the fastest counts")
+    parser.add_argument("--repeat", type=int, default=1, help="runs of each tool, by turns, of which the fastest counts")
     parser.add_argument("--again", action="store_true", help="measure anew what BUILD/surface/runs.json has already")
     parser.add_argument("--out", type=pathlib.Path, help="the table as Markdown (default: BUILD/surface/RESULTS.md)")
     options = parser.parse_args()
@@ -82,11 +82,8 @@ def run_once(command):
             "peak_memory": cost["peak_memory"]}
 
 
-def run(tool, options, mesh, n_triangles):
-    out = options.build / "surface" / "result.ply"
-    out.unlink(missing_ok=True)
-    command = command_of(tool, options, mesh["path"], n_triangles, out)
-    runs = [run_once(command) for _ in range(options.repeat)]
+def judged(runs, mesh, out):
+    """The fastest of them, and what its mesh is like."""
     failed = [one for one in runs if "failure" in one]
     if failed:
         return failed[0]
@@ -99,6 +96,20 @@ def run(tool, options, mesh, n_triangles):
             "hausdorff": hausdorff / mesh["diagonal"], "rms": rms / mesh["diagonal"]}
 
 
+def run_by_turns(chosen, options, mesh, n_triangles):
+    """By tool. Each round runs all of them, so that a slow minute of the machine is slow for all."""
+    out = {tool: options.build / "surface" / f"result.{tool}.ply" for tool in chosen}
+    runs = {tool: [] for tool in chosen}
+    for _ in range(options.repeat):
+        for tool in chosen:
+            out[tool].unlink(missing_ok=True)
+            runs[tool].append(run_once(command_of(tool, options, mesh["path"], n_triangles, out[tool])))
+    results = {tool: judged(runs[tool], mesh, out[tool]) for tool in chosen}
+    for path in out.values():
+        path.unlink(missing_ok=True)
+    return results
+
+
 def identity(tool, options):
     """Of the program that is measured."""
     if tool != "tinsmith":
@@ -106,17 +117,27 @@ def identity(tool, options):
     return hashlib.sha256((options.build / "tinsmith").read_bytes()).hexdigest() + options.option
 
 
-def remembered(tool, options, mesh, n_triangles):
-    """The run's result, kept in a file: a table takes an hour, and goes on after an end where it was."""
-    path = options.build / "surface" / "runs.json"
-    known = json.loads(path.read_text()) if path.exists() else {}
-    key = " ".join([tool, identity(tool, options), mesh["name"], str(n_triangles)])
-    if options.again or key not in known:
-        known[key] = run(tool, options, mesh, n_triangles)
-        unfinished = path.with_suffix(".new")
-        unfinished.write_text(json.dumps(known, indent=1))
-        unfinished.rename(path)
-    return known[key]
+class Runs:
+    """Results, kept in a file: a table takes an hour, and goes on after an end where it was."""
+
+    def __init__(self, options):
+        self.options = options
+        self.path = options.build / "surface" / "runs.json"
+        self.known = json.loads(self.path.read_text()) if self.path.exists() and not options.again else {}
+
+    def of(self, mesh, share):
+        """By tool, all that are asked for."""
+        n_triangles = round(len(mesh["surface"][1]) * share / 100)
+        keys = {tool: " ".join([tool, identity(tool, self.options), mesh["name"], str(n_triangles)])
+                for tool in self.options.tool or TOOLS}
+        missing = [tool for tool, key in keys.items() if key not in self.known]
+        if missing:
+            for tool, result in run_by_turns(missing, self.options, mesh, n_triangles).items():
+                self.known[keys[tool]] = result
+            unfinished = self.path.with_suffix(".new")
+            unfinished.write_text(json.dumps(self.known, indent=1))
+            unfinished.rename(self.path)
+        return {tool: self.known[key] for tool, key in keys.items()}
 
 
 def load(name, folder):
@@ -136,22 +157,22 @@ def row(share, tool, result, n_input):
             f"{result['turned_edges']} | {result['genus']:g} | {result['borders']} | {result['components']} |")
 
 
-def table(options, mesh):
+def table(options, runs, mesh):
     """Line by line, as the runs end."""
     n_input, facts = len(mesh["surface"][1]), mesh["facts"]
     yield (f"\n### {mesh['name']}: {n_input} triangles, genus {facts['genus']:g}, {facts['borders']} borders, "
            f"{facts['components']} parts, {facts['turned_edges']} turned edges\n\n{HEADER}")
     for share in options.share or [50, 20, 5, 1]:
-        for tool in options.tool or TOOLS:
-            yield row(share, tool, remembered(tool, options, mesh, round(n_input * share / 100)), n_input)
+        for tool, result in runs.of(mesh, share).items():
+            yield row(share, tool, result, n_input)
 
 
-def multiples(options, mesh):
+def multiples(options, runs, mesh):
     """Of the distances, and of the time per removed triangle, from the runs that the tables show."""
     n_input = len(mesh["surface"][1])
     for share in options.share or [50, 20, 5, 1]:
-        ours, *peers = (remembered(tool, options, mesh, round(n_input * share / 100))
-                        for tool in ("tinsmith", "cgal-gh", "vtk-quadric"))
+        results = runs.of(mesh, share)
+        ours, *peers = (results[tool] for tool in ("tinsmith", "cgal-gh", "vtk-quadric"))
         if any("failure" in one for one in (ours, *peers)):
             continue
         cells = [max(ours[what], FLOOR) / max(peer[what], FLOOR) for peer in peers for what in ("hausdorff", "rms")]
@@ -160,14 +181,14 @@ def multiples(options, mesh):
         yield f"| {mesh['name']} | {share:g} % | " + " | ".join(f"{x:.2f}" for x in (*cells, *paces)) + " |"
 
 
-def summary(options):
+def summary(options, runs):
     yield ("\n## tinsmith's distances as multiples of its peers'\n\nAsked are 1.05 of CGAL's and 1.00 of VTK's, and "
            "CGAL's time. Distances below a ten-millionth of the diagonal, about what single precision rounds away, count "
            "as that much: those of the cube.\n\n| mesh | triangles asked | Hausdorff : CGAL GH | RMS : CGAL GH | "
            "Hausdorff : VTK quadric | RMS : VTK quadric | time per removed triangle, CGAL GH : ours | the same, of CGAL its collapses alone |\n"
            "|---|---|---|---|---|---|---|---|")
     for name in options.mesh or meshes.MESHES:
-        yield from multiples(options, load(name, options.build / "surface"))
+        yield from multiples(options, runs, load(name, options.build / "surface"))
 
 
 def version_of(package):
@@ -187,10 +208,11 @@ def preface(options):
 
 
 def tables(options):
+    runs = Runs(options)
     for name in options.mesh or meshes.MESHES:
-        yield from table(options, load(name, options.build / "surface"))
+        yield from table(options, runs, load(name, options.build / "surface"))
     if not options.tool or {"tinsmith", "cgal-gh", "vtk-quadric"} <= set(options.tool):
-        yield from summary(options)
+        yield from summary(options, runs)
     if options.colours:
         yield from colours.table(options.build, load("bunny", options.build / "surface"), [20, 5, 1])
 
