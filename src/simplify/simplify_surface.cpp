@@ -1,7 +1,9 @@
 // Edge collapse on surfaces in space: the paper's steps 1 to 7.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <queue>
@@ -43,6 +45,8 @@ constexpr double kSquaredNoise = 1e-6;
 // without; surfaces without thin parts stay nearly as they are.
 constexpr double kOfTrueDistance = 0.6;
 
+constexpr float kNotQueued = -1;
+
 struct Collapse {
   double cost = kInfinity;  // E_g + alpha E_c
   Vec<3> position{};
@@ -72,8 +76,9 @@ class SurfaceSimplifier {
         report_(report),
         history_(history),
         attributes_(values.n_components > 0 ? attribute_quadrics(mesh, values, options) : nullptr),
-        version_(mesh.origin.size(), 0),
+        queued_cost_(mesh.origin.size(), kNotQueued),
         is_refused_(mesh.origin.size(), 0),
+        has_refused_(mesh.position.size(), 0),
         link_condition_(mesh.position.size()),
         n_triangles_(mesh.origin.size() / 3) {}
 
@@ -96,23 +101,25 @@ class SurfaceSimplifier {
   }
 
  private:
-  struct Entry {
-    float cost;
-    std::int32_t halfedge;
-    std::uint32_t version;
-    // The cheapest first, ties by number.
-    bool operator<(const Entry& other) const {
-      return cost != other.cost ? cost > other.cost : halfedge > other.halfedge;
-    }
-  };
+  // A cost and a halfedge in one number: the cheapest first, ties by halfedge, and comparing needs no jump.
+  using Entry = std::uint64_t;
+  static Entry entry_of(float cost, std::int32_t h) {
+    return Entry{std::bit_cast<std::uint32_t>(cost)} << 32U | static_cast<std::uint32_t>(h);
+  }
+  static float cost_of(Entry entry) { return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U)); }
+  static std::int32_t halfedge_of(Entry entry) { return static_cast<std::int32_t>(entry & 0xFFFFFFFFU); }
+
+  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
   void collapse_down_to(double target) {
     const auto n_start = static_cast<double>(n_start_);
     while (!queue_.empty() && static_cast<double>(n_triangles_) > target) {
-      const Entry entry = queue_.top();
+      const std::int32_t h = halfedge_of(queue_.top());
+      const float cost = cost_of(queue_.top());
       queue_.pop();
-      if (mesh_.origin[at(entry.halfedge)] == kNone || version_[at(entry.halfedge)] != entry.version) continue;
-      try_collapse(entry.halfedge, entry.cost);
+      if (mesh_.origin[at(h)] == kNone || queued_cost_[at(h)] != cost) continue;
+      queued_cost_[at(h)] = kNotQueued;
+      try_collapse(h, cost);
       if (++n_steps_ % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target));
     }
   }
@@ -122,10 +129,9 @@ class SurfaceSimplifier {
     entries.reserve(mesh_.origin.size());  // nearly half of it for those that come later
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
       if (h < mesh_.twin[at(h)]) continue;
-      const Entry entry = entry_of(h);
-      if (entry.cost < kInfinity) entries.push_back(entry);
+      if (note_cost(h)) entries.push_back(entry_of(queued_cost_[at(h)], h));
     }
-    queue_ = std::priority_queue<Entry>({}, std::move(entries));  // in linear time
+    queue_ = Queue({}, std::move(entries));  // in linear time
   }
 
   // Once nothing else is left, places are tried that are not the best: a torus of 3600 triangles ends at 36 instead
@@ -250,20 +256,21 @@ class SurfaceSimplifier {
   // ---- steps 5 and 6: candidates by cost, and one collapse
 
   void push(std::int32_t h) {
-    const Entry entry = entry_of(h);
-    if (entry.cost < kInfinity) queue_.push(entry);
+    if (note_cost(h)) queue_.push(entry_of(queued_cost_[at(h)], h));
   }
 
-  // Makes all earlier ones of the edge void.
-  Entry entry_of(std::int32_t h) {
+  // Makes all earlier entries of the edge void. False when it must not collapse.
+  bool note_cost(std::int32_t h) {
     const Collapse collapse = best(h);
-    // Of both: which of them is the larger may have changed.
-    ++version_[at(h)];
-    if (mesh_.twin[at(h)] != kNone) ++version_[at(mesh_.twin[at(h)])];
-    is_refused_[at(h)] = 0;
     const Vec<3> edge = point(Halfedges::next(h)) - point(h);
     const double noise = kSquaredNoise * planes(h).trace() * dot(edge, edge);
-    return {static_cast<float>(collapse.cost + noise), h, version_[at(h)]};
+    const auto cost = static_cast<float>(collapse.cost + noise);
+    const bool may = cost < kInfinity;
+    queued_cost_[at(h)] = may ? cost : kNotQueued;
+    // Which of the two is the larger may have changed.
+    if (mesh_.twin[at(h)] != kNone) queued_cost_[at(mesh_.twin[at(h)])] = kNotQueued;
+    is_refused_[at(h)] = 0;
+    return may;
   }
 
   std::int32_t edge_of(std::int32_t h) const { return std::max(h, mesh_.twin[at(h)]); }
@@ -280,12 +287,13 @@ class SurfaceSimplifier {
     }
     if (refused != nullptr) {
       ++*refused;
-      is_refused_[at(h)] = 1;
+      is_refused_[at(h)] = has_refused_[at(mesh_.origin[at(h)])] = has_refused_[at(mesh_.destination(h))] = 1;
       return;
     }
     const auto least = static_cast<float>(std::max(collapse.cost, least_cost(h, collapse.position, cost)));
     if (least > cost) {
-      queue_.push({least, h, version_[at(h)]});
+      queued_cost_[at(h)] = least;
+      queue_.push(entry_of(least, h));
       return;
     }
     report_.last_cost = std::max(report_.last_cost, distance);
@@ -385,7 +393,10 @@ class SurfaceSimplifier {
       push(edge_of(h));
       neighbours_.push_back(mesh_.origin[at(h)] == kept ? mesh_.destination(h) : mesh_.origin[at(h)]);
     });
+    has_refused_[at(kept)] = 0;
     for (const std::int32_t v : neighbours_) {
+      if (!has_refused_[at(v)]) continue;
+      has_refused_[at(v)] = 0;
       for_each_edge(v, [&](std::int32_t h) {
         if (is_refused_[at(edge_of(h))]) push(edge_of(h));
       });
@@ -428,15 +439,16 @@ class SurfaceSimplifier {
   std::vector<SurfaceCollapse>* history_;
   std::unique_ptr<AttributeQuadrics> attributes_;  // null when there are none
   std::vector<Quadric<3>> geometry_;               // by vertex
-  std::vector<std::uint32_t> version_;             // by the larger halfedge of an edge
+  std::vector<float> queued_cost_;                 // by the larger halfedge of an edge: of its entry
   std::vector<std::uint8_t> is_refused_;           // by the larger halfedge of an edge
+  std::vector<std::uint8_t> has_refused_;          // by vertex: an edge of it may be
   LinkCondition link_condition_;
   std::size_t n_triangles_;
   std::size_t n_start_ = 0;
   std::uint64_t n_steps_ = 0;
   bool tries_places_ = false;
   FitSamples samples_;  // empty: no fit
-  std::priority_queue<Entry> queue_;
+  Queue queue_;
   SurfaceStar star_;
   std::vector<std::int32_t> neighbours_;
   std::vector<double> scratch_;
