@@ -204,11 +204,11 @@ Triangles without_duplicated(const Triangles& triangles, std::size_t n_vertices,
 
 /// Whether another triangle has the same vertices.
 bool is_duplicated(const Halfedges& mesh, std::int32_t h) {
-  const auto beyond = [&](std::int32_t k) {
-    const std::int32_t g = mesh.twin[static_cast<std::size_t>(h + k)];
+  const auto beyond = [&](std::int32_t side) {
+    const std::int32_t g = mesh.twin[static_cast<std::size_t>(side)];
     return g == kNone ? kNone : g / 3;
   };
-  return beyond(0) != kNone && beyond(0) == beyond(1) && beyond(0) == beyond(2);
+  return beyond(h) != kNone && beyond(h) == beyond(h + 1) && beyond(h) == beyond(h + 2);
 }
 
 /// Whether there is nothing to mend, as in most files: vertices have one fan each, from which no neighbour is met
