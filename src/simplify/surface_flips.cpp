@@ -128,17 +128,54 @@ bool keeps_shape(const SurfaceMesh& mesh, const Quadrilateral& q) {
 
 double power(double squared) { return squared * std::sqrt(std::sqrt(squared)); }
 
-bool is_nearer(const SurfaceSamples& samples, const ByTriangle& by_triangle, const Quadrilateral& q) {
+// Of the place in the triangle that is about the nearest: below p, or on the side that p is beyond.
+Vec<3> shares_of(const Vec<3>& p, const Triangle& t) {
+  const Vec<3> normal = normal_of(t);
+  const double squared = squared_length(normal);
+  if (!(squared > 0)) return {1, 0, 0};
+  const Vec<3> d = p - t[0];
+  Vec<3> share{0, dot(cross(d, t[2] - t[0]), normal) / squared, dot(cross(t[1] - t[0], d), normal) / squared};
+  share[0] = 1 - share[1] - share[2];
+  for (double& x : share) x = std::max(0.0, x);
+  const double sum = share[0] + share[1] + share[2];
+  for (double& x : share) x /= sum;
+  return share;
+}
+
+// Two triangles, with the wedges of their corners.
+struct Pair {
+  const std::array<Triangle, 2>& triangle;
+  std::array<std::array<std::int32_t, 3>, 2> wedge;
+};
+
+double error_in(const SurfaceSamples& samples, std::uint32_t i, double squared, const Pair& pair, std::size_t t) {
+  double error = power(squared);
+  if (samples.value_error)
+    error += samples.value_error(i, {pair.wedge[t], shares_of(samples.place[i], pair.triangle[t])});
+  return samples.weight[i] * error;
+}
+
+bool is_nearer(const SurfaceMesh& mesh, const SurfaceSamples& samples, const ByTriangle& by_triangle,
+               const Quadrilateral& q) {
+  const auto wedge = [&](std::int32_t h) { return mesh.wedge[at(h)]; };
+  const std::int32_t a = wedge(q.h);
+  const std::int32_t b = wedge(q.g);
+  const std::int32_t c = wedge(Halfedges::previous(q.h));
+  const std::int32_t d = wedge(Halfedges::previous(q.g));
+  const Pair pair_before{q.before, {{{a, b, c}, {b, a, d}}}};
+  const Pair pair_after{q.after, {{{d, c, a}, {c, d, b}}}};
   double before = 0;
   for (const std::int32_t h : {q.h, q.g}) {
-    for (const std::uint32_t i : by_triangle.of(h)) before += samples.weight[i] * power(samples.squared[i]);
+    for (const std::uint32_t i : by_triangle.of(h))
+      before += error_in(samples, i, samples.squared[i], pair_before, h == q.h ? 0 : 1);
   }
   double after = 0;
   for (const std::int32_t h : {q.h, q.g}) {
     for (const std::uint32_t i : by_triangle.of(h)) {
-      const double squared =
-          std::min(squared_distance(samples.place[i], q.after[0]), squared_distance(samples.place[i], q.after[1]));
-      after += samples.weight[i] * power(squared);
+      const std::array squared{squared_distance(samples.place[i], q.after[0]),
+                               squared_distance(samples.place[i], q.after[1])};
+      const std::size_t t = squared[0] < squared[1] ? 0 : 1;
+      after += error_in(samples, i, squared[t], pair_after, t);
       if (!(after < kWorthwhile * before)) return false;
     }
   }
@@ -196,7 +233,7 @@ void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsAstra
       continue;
     const Quadrilateral q(mesh, h);
     if (is_flipped[at(h / 3)] || is_flipped[at(q.g / 3)] || is_seam(mesh, q)) continue;
-    if (!is_convex(q) || !is_nearer(samples, by_triangle, q) || !keeps_shape(mesh, q)) continue;
+    if (!is_convex(q) || !is_nearer(mesh, samples, by_triangle, q) || !keeps_shape(mesh, q)) continue;
     if (q.c == q.d || has_edge(mesh, q.c, q.d) || goes_astray(q, is_astray)) continue;
     flip(mesh, q);
     is_flipped[at(h / 3)] = is_flipped[at(q.g / 3)] = 1;

@@ -208,7 +208,8 @@ TEST(SimplifySurface, KeepsColoursBetterThanGeometryAlone) {
     double colour;  // at most so much of the error that geometry alone gives
   };
   for (const auto& [surface, ratio, colour] :
-       {Case{with_checker_colour(scan(40), 5), 0.3, 0.8}, Case{with_gradient_colour(scan(40)), 0.1, 0.9}}) {
+       {Case{with_checker_colour(scan(40), 5), 0.3, 0.8}, Case{with_checker_colour(scan(60), 8), 0.03, 0.76},
+        Case{with_gradient_colour(scan(40)), 0.1, 0.9}}) {
     SimplifySurfaceOptions options;
     const Surface with_colour = simplified(surface, options, ratio).surface;
     options.attribute_weight = 0;  // the values follow the place, nothing more

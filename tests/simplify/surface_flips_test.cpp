@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tinsmith/simplify.hpp"
 
 namespace tinsmith {
@@ -68,6 +70,27 @@ TEST(FlipNearer, KeepsADiagonalThatTheSamplesLieOn) {
   SurfaceMesh mesh = square(0.2);
   flip_nearer(mesh, MiddleSample(mesh, 0).samples(), nothing_is_astray);
   EXPECT_FALSE(runs_along_the_ridge(mesh));
+}
+
+// Flat: no diagonal is nearer. The values are wrong on triangles that have both vertex 0 and vertex 2, so that they
+// ask for the other one, or the other way around.
+TEST(FlipNearer, TakesTheDiagonalThatTheValuesAskFor) {
+  for (const bool is_wrong_with_it : {true, false}) {
+    SurfaceMesh mesh = square(0);
+    const MiddleSample sample(mesh, 0);
+    SurfaceSamples samples = sample.samples();
+    samples.value_error = [&](std::size_t, const PlaceInTriangle& place) {
+      const auto has = [&](std::uint32_t original) {
+        return std::any_of(place.wedge.begin(), place.wedge.end(), [&](std::int32_t w) {
+          return mesh.original_vertex[static_cast<std::size_t>(w)] == original;
+        });
+      };
+      EXPECT_NEAR(place.share[0] + place.share[1] + place.share[2], 1, 1e-12);
+      return (has(0) && has(2)) == is_wrong_with_it ? 1.0 : 0.0;
+    };
+    flip_nearer(mesh, samples, nothing_is_astray);
+    EXPECT_EQ(runs_along_the_ridge(mesh), is_wrong_with_it);
+  }
 }
 
 TEST(FlipNearer, KeepsFeatures) {

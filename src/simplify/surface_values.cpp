@@ -1,0 +1,108 @@
+#include "simplify/surface_values.hpp"
+
+namespace tinsmith {
+
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+double difference(const ValuedSurface& surface, std::size_t sample, const PlaceInTriangle& place,
+                  std::size_t component) {
+  const std::size_t n = surface.values.n_components;
+  double off = surface.samples.values[sample * n + component];
+  for (std::size_t k = 0; k < 3; ++k)
+    off -= place.share[k] * surface.values.values[at(place.wedge[k]) * n + component];
+  return off;
+}
+
+void add(Vec<3>& to, const Vec<3>& what, double factor) {
+  for (std::size_t i = 0; i < 3; ++i) to[i] += factor * what[i];
+}
+
+// By how much the shares of a triangle's corners grow with the place; false without area.
+bool slopes_of_shares(const SurfaceMesh& mesh, std::int32_t h, std::array<Vec<3>, 3>& slopes) {
+  const auto place = [&](std::int32_t k) { return mesh.position[at(mesh.origin[at(h + k % 3)])]; };
+  const Vec<3> normal = cross(place(1) - place(0), place(2) - place(0));
+  const double squared = dot(normal, normal);
+  if (!(squared > 0)) return false;
+  for (std::int32_t k = 0; k < 3; ++k) {
+    slopes[at(k)] = {};
+    add(slopes[at(k)], cross(normal, place(k + 2) - place(k + 1)), 1 / squared);
+  }
+  return true;
+}
+
+// One step of Jacobi's, with shares for their squares, as steps of vertices.
+void step_values(const ValuedSurface& surface, const std::vector<std::int32_t>& triangle) {
+  const SurfaceMesh& mesh = surface.mesh;
+  WedgeValues& values = surface.values;
+  const std::size_t n = values.n_components;
+  std::vector<double> pulls(values.values.size(), 0);
+  std::vector<double> weights(mesh.original_vertex.size(), 0);
+  for_each_valued(surface, triangle, [&](std::size_t i, const Nearest& there) {
+    const PlaceInTriangle place = place_in(mesh, there);
+    for (std::size_t k = 0; k < 3; ++k) weights[at(place.wedge[k])] += surface.samples.weight[i] * place.share[k];
+    for (std::size_t c = 0; c < n; ++c) {
+      const double off = surface.samples.weight[i] * difference(surface, i, place, c);
+      for (std::size_t k = 0; k < 3; ++k) pulls[at(place.wedge[k]) * n + c] += place.share[k] * off;
+    }
+  });
+  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+    if (!mesh.is_alive(static_cast<std::int32_t>(v)) || mesh.kind[v] != SurfaceVertexKind::kInterior) continue;
+    const std::int32_t w = mesh.wedge[at(mesh.out[v])];
+    if (!(weights[at(w)] > 0)) continue;
+    for (std::size_t c = 0; c < n; ++c) values.values[at(w) * n + c] += pulls[at(w) * n + c] / weights[at(w)];
+    put_in_range(values, values.of(w));
+  }
+}
+
+}  // namespace
+
+PlaceInTriangle place_in(const SurfaceMesh& mesh, const Nearest& there) {
+  PlaceInTriangle place{{}, there.share};
+  for (std::int32_t k = 0; k < 3; ++k) place.wedge[at(k)] = mesh.wedge[at(there.halfedge + k)];
+  return place;
+}
+
+double squared_difference(const ValuedSurface& surface, std::size_t sample, const PlaceInTriangle& place) {
+  double sum = 0;
+  for (std::size_t c = 0; c < surface.values.n_components; ++c) {
+    const double off = difference(surface, sample, place, c);
+    sum += off * off;
+  }
+  return sum;
+}
+
+// A vertex with a share in the place that steps by d takes the values along: there they change by -share x slope .
+// d (Gauss and Newton's linear form). With the share and not its square, as for places.
+void pull_by_values(const ValuedSurface& surface, std::size_t sample, const Nearest& there, double weight,
+                    std::vector<Quadric<3>>& pulls) {
+  using Q = Quadric<3>;
+  std::array<Vec<3>, 3> slopes;
+  if (!slopes_of_shares(surface.mesh, there.halfedge, slopes)) return;
+  const PlaceInTriangle place = place_in(surface.mesh, there);
+  Q pull;
+  for (std::size_t c = 0; c < surface.values.n_components; ++c) {
+    Vec<3> slope{};
+    for (std::size_t k = 0; k < 3; ++k) add(slope, slopes[k], surface.values.of(place.wedge[k])[c]);
+    const double off = difference(surface, sample, place, c);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = i; j < 3; ++j) pull.q[Q::a(i, j)] += slope[i] * slope[j];
+      pull.q[Q::b(i)] += slope[i] * off;
+    }
+    pull.q[Q::c()] += off * off;
+  }
+  for (std::int32_t k = 0; k < 3; ++k) {
+    const double factor = weight * place.share[at(k)];
+    if (!(factor > 0)) continue;
+    Q& sum = pulls[at(surface.mesh.origin[at(there.halfedge + k)])];
+    for (std::size_t i = 0; i < pull.q.size(); ++i) sum.q[i] += factor * pull.q[i];
+  }
+}
+
+void fit_values(const ValuedSurface& surface, const std::vector<std::int32_t>& triangle) {
+  constexpr int kSteps = 4;
+  for (int step = 0; step < kSteps; ++step) step_values(surface, triangle);
+}
+
+}  // namespace tinsmith
