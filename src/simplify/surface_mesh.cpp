@@ -277,7 +277,8 @@ std::uint64_t count_components(const SurfaceMesh& mesh) {
 
 void mark_features(SurfaceMesh& mesh, const SimplifySurfaceOptions& options, SimplifySurfaceReport& report) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
-  const double least_cosine = options.crease ? std::cos(*options.crease * kDegree) : -1;
+  std::optional<double> least_cosine;  // none: no edge is a crease
+  if (options.crease) least_cosine = std::cos(*options.crease * kDegree);
   std::vector<VertexPair> list;
   for (const auto& [a, b] : options.feature_edges) list.push_back(ordered(a, b));
   std::sort(list.begin(), list.end());
@@ -290,7 +291,7 @@ void mark_features(SurfaceMesh& mesh, const SimplifySurfaceOptions& options, Sim
     if (g == kNone) {
       ++report.border_edges;
     } else {
-      if (!is_seam(mesh, h) && !(options.crease && is_crease(mesh, h, least_cosine)) &&
+      if (!is_seam(mesh, h) && !(least_cosine && is_crease(mesh, h, *least_cosine)) &&
           (list.empty() || !is_listed(mesh, h, list)))
         continue;
       ++report.feature_edges;
