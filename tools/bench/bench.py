@@ -9,6 +9,7 @@ tinsmith are kept apart from those of another.
 import argparse
 import hashlib
 import json
+import os
 import pathlib
 import shlex
 import statistics
@@ -35,7 +36,7 @@ class Bench:
         identity = hashlib.sha256(self.binary.read_bytes()).hexdigest()[:12]
         self.runs = build / "runs" / identity
         self.runs.mkdir(parents=True, exist_ok=True)
-        self.mesh = self.runs / "mesh.ply"
+        self.mesh = self.runs / f"mesh-{os.getpid()}.ply"
 
     def grid(self, name, rasters):
         """The samples as the peers read them."""
@@ -99,28 +100,44 @@ def say(name, result):
           flush=True)
 
 
-def suits(tool, samples_per_side):
-    """martini takes squares of 2^k + 1 samples only."""
-    width, height = samples_per_side
+def suits(tool, case):
+    """Only what is given the same raster is compared: a tool that knows no voids can't take one that has some. And
+    martini takes squares of 2^k + 1 samples only."""
+    width, height = case["size"]
+    if case["has_voids"] and not tool.knows_voids:
+        return False
     return tool.name != "martini" or (width == height and (width - 1) & (width - 2) == 0)
 
 
-def measure_case(bench, case, options, n_runs):
+def measure_count_driven(bench, case, options, n_triangles, too_slow):
+    """Each at the same count, once; those in `too_slow` ran into the limit at a finer tolerance, with less to do."""
+    results = {}
+    for tool in (t for t in tools.COUNT_DRIVEN if t.name in options.peers and suits(t, case)):
+        if tool.name in too_slow:
+            results[tool.name] = [{"failed": too_slow[tool.name]}]
+            continue
+        run = bench.once(tool, case, 0, n_triangles)
+        results[tool.name] = [run]
+        if run["limit_hit"] and tool.decimates:
+            too_slow[tool.name] = f"not run: over {bench.limit:g} s at {case['tolerance']:g} m"
+    return results
+
+
+def measure_case(bench, case, options, n_runs, too_slow):
     """All tools at one tolerance: tinsmith and the tolerance-driven peers by turns, then the count-driven ones."""
     ours = tools.tinsmith_tools(options.efforts)
-    peers = [t for t in tools.TOLERANCE_DRIVEN if t.name in options.peers and suits(t, case["size"])]
+    peers = [t for t in tools.TOLERANCE_DRIVEN if t.name in options.peers and suits(t, case)]
     results = {tool.name: [] for tool in ours + peers}
     for repetition in range(n_runs):
         for tool in ours + peers:
             earlier = results[tool.name]
             if not (earlier and "failed" in earlier[0]):
                 earlier.append(bench.once(tool, case, repetition))
-    if "delatin" in options.peers and case["size"][0] * case["size"][1] < 5e6:
+    if "delatin" in results and case["size"][0] * case["size"][1] < 5e6:
         results[tools.CROSS_CHECK.name] = [bench.once(tools.CROSS_CHECK, case, 0)]
     leader = results[ours[0].name][0]
     if "judged" in leader and "triangles" in leader["judged"]:
-        for tool in (t for t in tools.COUNT_DRIVEN if t.name in options.peers):
-            results[tool.name] = [bench.once(tool, case, 0, leader["judged"]["triangles"])]
+        results |= measure_count_driven(bench, case, options, leader["judged"]["triangles"], too_slow)
     return results
 
 
@@ -136,12 +153,11 @@ def measure_input(bench, name, options):
     size = (header["width"], header["height"])
     # Five runs for the small ones, where a run is short and its time less sure.
     n_runs = options.runs or (3 if options.quick else 5 if size[0] * size[1] < 2e6 else 3)
-    cases = []
+    cases, too_slow = [], {}
     for tolerance in options.tolerances or (inputs.QUICK_TOLERANCES if options.quick else inputs.tolerances(name)):
-        case = {"input": name, "rasters": rasters, "grid": grid, "size": size, "tolerance": tolerance}
-        results = measure_case(bench, case, options, n_runs)
-        cases.append({"input": name, "size": size, "has_voids": header["has_voids"], "tolerance": tolerance,
-                      "results": results})
+        shown = {"input": name, "size": size, "has_voids": header["has_voids"], "tolerance": tolerance}
+        case = {**shown, "rasters": rasters, "grid": grid}
+        cases.append({**shown, "results": measure_case(bench, case, options, n_runs, too_slow)})
     return cases
 
 
@@ -151,13 +167,14 @@ def one_case_a_line(document):
 
 
 def write_tables(bench, options, cases):
-    loads = [run["load_before"] for case in cases for runs in case["results"].values() for run in runs]
+    loads = [run["load_before"] for case in cases for runs in case["results"].values() for run in runs
+             if "load_before" in run]
     document = {"command": "tools/bench/run.sh " + shlex.join(options.words), "machine": tools.machine(),
                 "versions": tools.versions(bench.build, TOP), "limit_seconds": bench.limit,
                 "load": {"median": statistics.median(loads), "highest": max(loads)}, "cases": cases}
-    options.out.mkdir(parents=True, exist_ok=True)
-    (options.out / "RESULTS.json").write_text(one_case_a_line(document))
-    (options.out / "RESULTS.md").write_text(report.markdown(document, options.efforts))
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    options.out.with_suffix(".json").write_text(one_case_a_line(document))
+    options.out.write_text(report.markdown(document, options.efforts))
 
 
 def words(text):
@@ -169,10 +186,9 @@ def numbers(text):
 
 
 def command_line(arguments):
-    """As it is shown: without run.sh's own option, and folders of this machine as DIR."""
-    folder_follows = [False] + [word in ("--build", "--data", "--out") for word in arguments]
-    shown = ["DIR" if follows else word for word, follows in zip(arguments, folder_follows)]
-    return shown[2:]
+    """As it is shown: without run.sh's own option, and no path of this machine."""
+    names = {"--build": "DIR", "--data": "DIR", "--out": "FILE.md"}
+    return [names.get(before, word) for before, word in zip(["", *arguments], arguments)][2:]
 
 
 def parse(arguments):
@@ -186,8 +202,8 @@ def parse(arguments):
     parser.add_argument("--efforts", type=words, metavar="A,B", default=["default"], help="of tinsmith's --effort")
     parser.add_argument("--runs", type=int, metavar="N", help="default: 5 up to 2 million samples, 3 above")
     parser.add_argument("--limit", type=float, metavar="S", default=900, help="seconds after which a run is ended")
-    parser.add_argument("--out", type=pathlib.Path, metavar="DIR", default=TOP / "tools/bench",
-                        help="for RESULTS.md and RESULTS.json (default: tools/bench)")
+    parser.add_argument("--out", type=pathlib.Path, metavar="FILE.md", default=TOP / "tools/bench/RESULTS.md",
+                        help="the tables, and beside it all there is as FILE.json (default: tools/bench/RESULTS.md)")
     parser.add_argument("--calibrate", action="store_true", help="only find the tolerances of the inputs anew")
     options = parser.parse_args(arguments)
     unknown = sorted(set(options.peers) - set(tools.PEERS))
@@ -209,7 +225,7 @@ def main(arguments):
             cases += measure_input(bench, name, options)
             write_tables(bench, options, cases)
     if cases:
-        print(options.out / "RESULTS.md")
+        print(options.out)
 
 
 if __name__ == "__main__":

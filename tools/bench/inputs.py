@@ -18,6 +18,9 @@ REAL = {
     "etopo5": "etopo5/etopo5_int16.tif",
 }
 
+# Those of them that have voids are measured as they are, beside the peers that know voids, and filled, beside all.
+FILLED = {f"{name}_filled": name for name in ("alps", "murray", "vancouver", "autzen")}
+
 # Shares of the samples that the result keeps as vertices.
 SHARES = [0.5, 0.2, 0.05, 0.01, 0.001]
 
@@ -27,11 +30,25 @@ TABLE = pathlib.Path(__file__).with_name("tolerances.json")
 def names(data):
     """Every input that can be had, in the order in which they are measured."""
     real = [name for name, pattern in REAL.items() if data and list(data.glob(pattern))]
-    return ["matterhorn", *GENERATED, *real]
+    filled = [name for name, source in FILLED.items() if source in real]
+    return ["matterhorn", *GENERATED, *real, *filled]
+
+
+def _made(path, *command):
+    """The file that the command makes, unless it is there."""
+    if not path.exists():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = path.with_suffix(".new.tif")
+        subprocess.run([*command, unfinished], check=True)
+        unfinished.rename(path)
+    return [path]
 
 
 def files(name, top, build, data):
-    """The rasters of an input; generated ones are made when they are not there yet."""
+    """The rasters of an input; generated and filled ones are made when they are not there yet."""
+    made = build / "inputs" / f"{name}.tif"
+    if name in FILLED:
+        return _made(made, build / "peers/dump", "--fill", *files(FILLED[name], top, build, data))
     if name in REAL:
         found = sorted(data.glob(REAL[name])) if data else []
         if not found:
@@ -40,15 +57,10 @@ def files(name, top, build, data):
     if name == "matterhorn":
         return [top / "data/matterhorn.tif"]
     if name not in GENERATED:
-        raise SystemExit(f"bench: --inputs {name}: unknown; there are {', '.join(['matterhorn', *GENERATED, *REAL])}")
-    path = build / "inputs" / f"{name}.tif"
-    if not path.exists():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        side = GENERATED[name]
-        unfinished = path.with_suffix(".new.tif")
-        subprocess.run([build / "make_terrain", "--kind", "fractal", "--size", f"{side}x{side}", unfinished], check=True)
-        unfinished.rename(path)
-    return [path]
+        known = ["matterhorn", *GENERATED, *REAL, *FILLED]
+        raise SystemExit(f"bench: --inputs {name}: unknown; there are {', '.join(known)}")
+    side = GENERATED[name]
+    return _made(made, build / "make_terrain", "--kind", "fractal", "--size", f"{side}x{side}")
 
 
 def tolerances(name):

@@ -14,9 +14,9 @@ tolerance-driven peers run by turns, and "ratio" is the median of tinsmith's wal
 the same turn, whole process / own. Errors are in metres, measured by `tinsmith verify` against every valid sample.
 """
 
-FILLED = """\
-This input has voids. tinsmith and the count-driven peers but vtk-greedy leave them out; delatin, martini and
-vtk-greedy know none: theirs are filled by inverse distance, and triangles with three corners in voids don't count.
+VOIDS = """\
+This input has voids. It is measured as it is beside the peers that know voids, and as {name}_filled, its voids filled by
+inverse distance, beside all.
 """
 
 
@@ -243,7 +243,7 @@ def input_section(cases, one, two, leader):
     width, height = cases[0]["size"]
     text = f"\n## {name}: {width} x {height} samples\n\n"
     if cases[0]["has_voids"]:
-        text += FILLED + "\n"
+        text += VOIDS.format(name=name) + "\n"
     text += quality_table(cases, one) + "\n" + time_table(cases, one, two)
     count_driven = count_table(cases, one, two) if two == leader else ""
     return text + ("\nAt equal triangles:\n\n" + count_driven if count_driven else "")

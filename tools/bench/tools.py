@@ -11,6 +11,8 @@ class Tool:
     """{input}: the rasters. {grid}: their samples as dump writes them. {m}: metres. {n}: triangles. {out}: a PLY."""
     name: str
     command: str
+    knows_voids: bool = True
+    decimates: bool = False  # from the full mesh: the fewer triangles are to be left, the longer it takes
 
 
 def tinsmith_tools(efforts):
@@ -27,21 +29,23 @@ def tinsmith_tools(efforts):
 
 # They stop at a largest error, as tinsmith does. The memory is for V8, whose limit is far below the machine's.
 TOLERANCE_DRIVEN = [
-    Tool("delatin", "node --max-old-space-size=12000 {build}/node/delatin.mjs {grid} {m} {out}"),
-    Tool("martini", "node --max-old-space-size=12000 {build}/node/martini.mjs {grid} {m} {out}"),
+    Tool("delatin", "node --max-old-space-size=12000 {build}/node/delatin.mjs {grid} {m} {out}",
+         knows_voids=False),
+    Tool("martini", "node --max-old-space-size=12000 {build}/node/martini.mjs {grid} {m} {out}",
+         knows_voids=False),
 ]
 
 # Not timed: delatin's mesh measured by other code than the judge's.
 CROSS_CHECK = Tool("delatin, own measurement",
-                   "node --max-old-space-size=12000 {build}/node/delatin.mjs {grid} {m} --check")
+                   "node --max-old-space-size=12000 {build}/node/delatin.mjs {grid} {m} --check", knows_voids=False)
 
 # They stop at a count of triangles: the one that tinsmith needed.
 COUNT_DRIVEN = [
-    Tool("cgal-gh", "{build}/peers/cgal_peer gh {grid} {n} {out}"),
-    Tool("cgal-lt", "{build}/peers/cgal_peer lt {grid} {n} {out}"),
+    Tool("cgal-gh", "{build}/peers/cgal_peer gh {grid} {n} {out}", decimates=True),
+    Tool("cgal-lt", "{build}/peers/cgal_peer lt {grid} {n} {out}", decimates=True),
     Tool("meshopt", "{build}/peers/meshopt_peer {grid} {n} {out}"),
-    Tool("vtk-greedy", "/usr/bin/python3 {bench}/peers/vtk_peer.py greedy {grid} {n} {out}"),
-    Tool("vtk-quadric", "/usr/bin/python3 {bench}/peers/vtk_peer.py quadric {grid} {n} {out}"),
+    Tool("vtk-greedy", "/usr/bin/python3 {bench}/peers/vtk_peer.py greedy {grid} {n} {out}", knows_voids=False),
+    Tool("vtk-quadric", "/usr/bin/python3 {bench}/peers/vtk_peer.py quadric {grid} {n} {out}", decimates=True),
 ]
 
 PEERS = [tool.name for tool in TOLERANCE_DRIVEN + COUNT_DRIVEN]

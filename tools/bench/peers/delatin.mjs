@@ -2,16 +2,16 @@
 // delatin.mjs GRID METRES --check: the same mesh, measured here instead of by the judge (no file is written).
 
 import Delatin from 'delatin';
-import {printResult, readGrid, timed, withoutVoids, writePly} from './grid.mjs';
+import {printResult, readGrid, timed, writePly} from './grid.mjs';
 
 /**
- * Largest error and RMSE, in metres, of a mesh whose vertices are samples, over all valid samples: each triangle is
+ * Largest error and RMSE, in metres, of a mesh whose vertices are samples, over all samples: each triangle is
  * asked for its height at every sample of its bounding box, and a sample on an edge counts once. A second, independent
  * measurement, to see whether the judge can be trusted.
  */
 function measure(grid, {coords, triangles}) {
-    const {width, samples, z, unit} = grid;
-    const seen = new Uint8Array(samples.length);
+    const {width, z, unit} = grid;
+    const seen = new Uint8Array(z.length);
     let largest = 0, sum = 0, n = 0;
     for (let t = 0; t < triangles.length; t += 3) {
         const [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
@@ -24,9 +24,9 @@ function measure(grid, {coords, triangles}) {
                 const v = ((cx - x) * (ay - y) - (cy - y) * (ax - x)) / area;
                 const w = ((ax - x) * (by - y) - (ay - y) * (bx - x)) / area;
                 const i = y * width + x;
-                if (u < 0 || v < 0 || w < 0 || seen[i] || Number.isNaN(samples[i])) continue;
+                if (u < 0 || v < 0 || w < 0 || seen[i]) continue;
                 seen[i] = 1;
-                const error = Math.abs(u * az + v * bz + w * cz - samples[i]) * unit;
+                const error = Math.abs(u * az + v * bz + w * cz - z[i]) * unit;
                 largest = Math.max(largest, error);
                 sum += error * error;
                 n++;
@@ -38,12 +38,11 @@ function measure(grid, {coords, triangles}) {
 
 const [path, metres, output] = process.argv.slice(2);
 const grid = readGrid(path);
-const [tin, seconds] = timed(() => {
+const [mesh, seconds] = timed(() => {
     const made = new Delatin(grid.z, grid.width, grid.height);
     made.run(Number(metres) / grid.unit);
     return made;
 });
-const mesh = withoutVoids(grid, tin);
 if (output === '--check') {
     printResult(seconds, mesh.triangles, measure(grid, mesh));
 } else {

@@ -1,4 +1,5 @@
 // dump INPUT... OUT.grid: the samples that tinsmith reads, as a grid file for the peers (grid.hpp).
+// dump --fill INPUT... OUT.tif: the same with the voids filled in, as a GeoTIFF in metres.
 
 #include <gdal_alg.h>
 #include <gdal_priv.h>
@@ -59,36 +60,52 @@ void fill_voids(std::vector<float>& z, const GridRect& rect) {
     throw std::runtime_error("GDAL could not fill the voids");
 }
 
-void write(std::ofstream& file, const std::vector<float>& z) {
-  file.write(reinterpret_cast<const char*>(z.data()), static_cast<std::streamsize>(z.size() * sizeof(float)));
+std::vector<float> read(const RasterField& field, const GridRect& rect) {
+  const HeightGrid grid = field.read(rect);
+  return {grid.z.begin(), grid.z.end()};
 }
 
-void dump(const std::vector<std::string>& inputs, const std::string& output) {
-  const RasterField field(inputs, {});
-  const GridRect rect{0, 0, field.width(), field.height()};
-  const HeightGrid grid = field.read(rect);
-  std::vector<float> z(grid.z.begin(), grid.z.end());
-  const bool has_voids = std::any_of(z.begin(), z.end(), [](float v) { return std::isnan(v); });
+void dump(const RasterField& field, const std::string& output) {
+  const std::vector<float> z = read(field, {0, 0, field.width(), field.height()});
   std::ofstream file(output, std::ios::binary);
-  file << header(field, has_voids);
-  write(file, z);
-  if (has_voids) {
-    fill_voids(z, rect);
-    write(file, z);
-  }
+  file << header(field, std::any_of(z.begin(), z.end(), [](float v) { return std::isnan(v); }));
+  file.write(reinterpret_cast<const char*>(z.data()), static_cast<std::streamsize>(z.size() * sizeof(float)));
   if (!file.flush()) throw std::runtime_error(output + ": can't be written; check the folder and its free space");
+}
+
+void dump_filled(const RasterField& field, const std::string& output) {
+  const GridRect rect{0, 0, field.width(), field.height()};
+  std::vector<float> z = read(field, rect);
+  fill_voids(z, rect);
+  const auto& frame = field.frame();
+  for (float& v : z) v *= static_cast<float>(frame.metres_per_vertical_unit);
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  const std::unique_ptr<GDALDataset> set(
+      driver->Create(output.c_str(), rect.width, rect.height, 1, GDT_Float32, nullptr));
+  if (!set) throw std::runtime_error(output + ": can't be written; check the folder");
+  auto geotransform = frame.geotransform;
+  set->SetGeoTransform(geotransform.data());
+  set->SetProjection(frame.crs_wkt.c_str());
+  GDALRasterBand& band = *set->GetRasterBand(1);
+  band.SetUnitType("m");
+  if (band.RasterIO(GF_Write, 0, 0, rect.width, rect.height, z.data(), rect.width, rect.height, GDT_Float32, 0, 0,
+                    nullptr) != CE_None)
+    throw std::runtime_error(output + ": can't be written; check the free space");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: dump INPUT... OUT.grid\n");
+  const bool is_filled = argc > 1 && std::string(argv[1]) == "--fill";
+  const int first = is_filled ? 2 : 1;
+  if (argc < first + 2) {
+    std::fprintf(stderr, "usage: dump [--fill] INPUT... OUT\n");
     return 2;
   }
   try {
     GDALAllRegister();
-    dump({argv + 1, argv + argc - 1}, argv[argc - 1]);
+    const RasterField field({argv + first, argv + argc - 1}, {});
+    (is_filled ? dump_filled : dump)(field, argv[argc - 1]);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "dump: %s\n", error.what());

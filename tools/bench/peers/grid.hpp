@@ -10,8 +10,7 @@
 namespace bench {
 
 /// A raster as dump writes it. A grid file is one line of JSON (the fields below but the heights), padded with
-/// spaces to a multiple of 8 bytes, then width * height float32 row by row with NaN for voids and, if has_voids,
-/// the same again with the voids filled in, for peers that know none.
+/// spaces to a multiple of 8 bytes, then width * height float32 row by row with NaN for voids.
 struct Grid {
   std::int32_t width = 0;                // samples
   std::int32_t height = 0;               // samples

@@ -3,28 +3,14 @@
 
 import {closeSync, openSync, readFileSync, writeSync} from 'node:fs';
 
-/** The grid's header, its heights with voids filled in (z) and with NaN for voids (samples). */
+/** The grid's header and its heights (z), which must be without voids: no peer in JavaScript knows any. */
 export function readGrid(path) {
     const bytes = readFileSync(path);
     const start = bytes.indexOf('\n') + 1;
     const grid = JSON.parse(bytes.toString('utf8', 0, start));
-    const n = grid.width * grid.height;
-    const heights = (block) => new Float32Array(bytes.buffer, bytes.byteOffset + start + block * n * 4, n);
-    grid.samples = heights(0);
-    grid.z = heights(grid.has_voids ? 1 : 0);
+    if (grid.has_voids) throw new Error(`${path}: has voids; make it from what dump --fill writes`);
+    grid.z = new Float32Array(bytes.buffer, bytes.byteOffset + start, grid.width * grid.height);
     return grid;
-}
-
-/** The mesh without the triangles that only the filled voids asked for. */
-export function withoutVoids(grid, {coords, triangles}) {
-    if (!grid.has_voids) return {coords, triangles};
-    const isVoid = (v) => Number.isNaN(grid.samples[coords[2 * v + 1] * grid.width + coords[2 * v]]);
-    const kept = [];
-    for (let t = 0; t < triangles.length; t += 3) {
-        const [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
-        if (!(isVoid(a) && isVoid(b) && isVoid(c))) kept.push(a, b, c);
-    }
-    return {coords, triangles: kept};
 }
 
 function planArea(coords, triangles) {

@@ -2,7 +2,7 @@
 // reckons it. Squares of 2^k + 1 samples only.
 
 import Martini from '@mapbox/martini';
-import {printResult, readGrid, timed, withoutVoids, writePly} from './grid.mjs';
+import {printResult, readGrid, timed, writePly} from './grid.mjs';
 
 const [path, metres, output] = process.argv.slice(2);
 const grid = readGrid(path);
@@ -10,6 +10,5 @@ const [mesh, seconds] = timed(() => {
     const {vertices, triangles} = new Martini(grid.width).createTile(grid.z).getMesh(Number(metres) / grid.unit);
     return {coords: vertices, triangles};
 });
-const kept = withoutVoids(grid, mesh);
-writePly(output, grid, kept);
-printResult(seconds, kept.triangles);
+writePly(output, grid, mesh);
+printResult(seconds, mesh.triangles);

@@ -18,20 +18,19 @@ from vtkmodules.vtkFiltersHybrid import vtkGreedyTerrainDecimation
 
 
 def read_grid(path):
-    """The header, the samples with NaN for voids and the same filled in; grid.hpp says what the file holds."""
+    """The header, and the samples with NaN for voids; grid.hpp says what the file holds."""
     with open(path, "rb") as file:
         grid = json.loads(file.readline())
         n = grid["width"] * grid["height"]
         samples = np.fromfile(file, np.float32, n).reshape(grid["height"], grid["width"])
-        filled = np.fromfile(file, np.float32, n).reshape(samples.shape) if grid["has_voids"] else samples
-    return grid, samples, filled
+    return grid, samples
 
 
-def raster(grid, filled):
+def raster(grid, samples):
     """Spacing 1, whatever the metres: with others VTK's tests of orientation are not exact, and triangles fold."""
     image = vtkImageData()
     image.SetDimensions(grid["width"], grid["height"], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(filled.astype(np.float64).ravel(), deep=True))
+    image.GetPointData().SetScalars(numpy_to_vtk(samples.astype(np.float64).ravel(), deep=True))
     return image
 
 
@@ -57,17 +56,17 @@ def full_mesh(grid, samples):
     return mesh, len(corners)
 
 
-def greedy(grid, samples, filled, n_triangles):
-    """With the border vertices kept: without them (VTK's default) the border rows miss by up to 2 000 m."""
+def greedy(grid, samples, n_triangles):
+    """It knows no voids. With the border vertices kept: without them (VTK's default) the border rows miss by up to 2 000 m."""
     simplify = vtkGreedyTerrainDecimation()
-    simplify.SetInputData(raster(grid, filled))
+    simplify.SetInputData(raster(grid, samples))
     simplify.SetErrorMeasureToNumberOfTriangles()
     simplify.SetNumberOfTriangles(n_triangles)
     simplify.BoundaryVertexDeletionOff()
     return simplify, [1, 1, 1]
 
 
-def quadric(grid, samples, filled, n_triangles):
+def quadric(grid, samples, n_triangles):
     mesh, n_full = full_mesh(grid, samples)
     simplify = vtkQuadricDecimation()
     simplify.SetInputData(mesh)
@@ -79,13 +78,6 @@ def mesh_of(output, scale):
     """Vertices as (column, row, height in the grid's unit), and triangles."""
     vertices = vtk_to_numpy(output.GetPoints().GetData()).astype(np.float64) / scale
     return vertices, vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-
-
-def without_voids(samples, vertices, triangles):
-    """Without the triangles that only the filled voids asked for; the vertices are samples."""
-    columns, rows = np.rint(vertices[:, 0]).astype(int), np.rint(vertices[:, 1]).astype(int)
-    is_void = np.isnan(samples[rows, columns])
-    return triangles[~is_void[triangles].all(axis=1)]
 
 
 def write_ply(path, grid, vertices, triangles):
@@ -110,14 +102,12 @@ def main():
     if len(sys.argv) != 5 or sys.argv[1] not in ("greedy", "quadric"):
         sys.exit("usage: vtk_peer.py greedy|quadric GRID TRIANGLES OUT.ply")
     method, path, n_triangles, output = sys.argv[1:]
-    grid, samples, filled = read_grid(path)
-    simplify, scale = {"greedy": greedy, "quadric": quadric}[method](grid, samples, filled, int(n_triangles))
+    grid, samples = read_grid(path)
+    simplify, scale = {"greedy": greedy, "quadric": quadric}[method](grid, samples, int(n_triangles))
     start = time.perf_counter()
     simplify.Update()
     seconds = time.perf_counter() - start
     vertices, triangles = mesh_of(simplify.GetOutput(), scale)
-    if method == "greedy" and grid["has_voids"]:
-        triangles = without_voids(samples, vertices, triangles)
     write_ply(output, grid, vertices, triangles)
     print(json.dumps({"own_seconds": seconds, "triangles": len(triangles)}))
 
