@@ -29,9 +29,10 @@ JUDGED = ["samples", "uncovered", "vertices", "triangles", "max_error", "rmse", 
 class Bench:
     """What all runs of one benchmark share."""
 
-    def __init__(self, build, limit):
+    def __init__(self, build, limit, runs_nothing):
         self.build = build
         self.limit = limit
+        self.runs_nothing = runs_nothing
         self.binary = build / "tinsmith"
         identity = hashlib.sha256(self.binary.read_bytes()).hexdigest()[:12]
         self.runs = build / "runs" / identity
@@ -71,6 +72,8 @@ class Bench:
         path = self.runs / f"{name}.json"
         if path.exists():
             return json.loads(path.read_text())
+        if self.runs_nothing:
+            return {"failed": report.NOT_RUN}
         self.mesh.unlink(missing_ok=True)
         result = measure.run(self.command(tool, case, n_triangles), self.limit)
         said = result.pop("stdout")
@@ -118,7 +121,7 @@ def measure_count_driven(bench, case, options, n_triangles, too_slow):
             continue
         run = bench.once(tool, case, 0, n_triangles)
         results[tool.name] = [run]
-        if run["limit_hit"] and tool.decimates:
+        if run.get("limit_hit") and tool.decimates:
             too_slow[tool.name] = f"not run: over {bench.limit:g} s at {case['tolerance']:g} m"
     return results
 
@@ -204,6 +207,7 @@ def parse(arguments):
     parser.add_argument("--limit", type=float, metavar="S", default=900, help="seconds after which a run is ended")
     parser.add_argument("--out", type=pathlib.Path, metavar="FILE.md", default=TOP / "tools/bench/RESULTS.md",
                         help="the tables, and beside it all there is as FILE.json (default: tools/bench/RESULTS.md)")
+    parser.add_argument("--tables", action="store_true", help="run nothing, only write the tables of what was run")
     parser.add_argument("--calibrate", action="store_true", help="only find the tolerances of the inputs anew")
     options = parser.parse_args(arguments)
     unknown = sorted(set(options.peers) - set(tools.PEERS))
@@ -216,7 +220,7 @@ def parse(arguments):
 def main(arguments):
     options = parse(arguments)
     chosen = options.inputs or (["matterhorn"] if options.quick else inputs.names(options.data))
-    bench = Bench(options.build, options.limit)
+    bench = Bench(options.build, options.limit, options.tables)
     cases = []
     for name in chosen:
         if options.calibrate:

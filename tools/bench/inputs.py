@@ -21,8 +21,10 @@ REAL = {
 # Those of them that have voids are measured as they are, beside the peers that know voids, and filled, beside all.
 FILLED = {f"{name}_filled": name for name in ("alps", "murray", "vancouver", "autzen")}
 
-# Shares of the samples that the result keeps as vertices.
+# Shares of the samples that the result keeps as vertices, and by how much of themselves they may be missed: a ragged
+# outline alone may need more vertices, then there is no such tolerance.
 SHARES = [0.5, 0.2, 0.05, 0.01, 0.001]
+LARGEST_MISS = 0.25
 
 TABLE = pathlib.Path(__file__).with_name("tolerances.json")
 
@@ -82,8 +84,12 @@ def calibrate(build, name, paths):
             continue
         tolerance = float(f"{found['tolerance']:.2g}")
         kept = _compress(build, paths, ["--max-error", str(tolerance)])
-        entries.append({"tolerance": tolerance, "share": round(kept["vertices"] / kept["samples"], 5)})
-        print(f"{name}: {tolerance:g} m keeps {entries[-1]['share']:.3%}", flush=True)
+        kept_share = kept["vertices"] / kept["samples"]
+        print(f"{name}: {tolerance:g} m keeps {kept_share:.3%}", flush=True)
+        if abs(kept_share / share - 1) > LARGEST_MISS:
+            print(f"{name}: that is not {share:.1%}, and left out")
+            continue
+        entries.append({"tolerance": tolerance, "share": round(kept_share, 5)})
     table = json.loads(TABLE.read_text()) if TABLE.exists() else {}
     table["fractal" if name in GENERATED else name] = entries
     rows = [f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in table.items()]
@@ -91,7 +97,7 @@ def calibrate(build, name, paths):
 
 
 def _compress(build, paths, goal):
-    """The report; None, and why, when there is no such result (a ragged outline alone may need more triangles)."""
+    """The report; None, and why, when there is no such result."""
     mesh = build / "inputs/calibration.ply"
     command = [build / "tinsmith", "compress", *paths, mesh, *goal, "--no-verify", "--json", "-"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
