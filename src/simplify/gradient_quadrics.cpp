@@ -133,9 +133,9 @@ class Gradient : public AttributeQuadrics {
   }
 
   // What rises through the whole range within two edges of the result is a jump there: as a slope it would go on
-  // beyond its triangle, and say of all places around that their values are wrong. Of a
-  // checkered bunny at 20, 5 and 1 % the RMS distance would be 1.10, 1.16 and 1.17 times as large without, at 5 and
-  // 1 % the colours' error 1.06 times.
+  // beyond its triangle, and say of all places around that their values are wrong. Of a checkered bunny at 20, 5
+  // and 1 % the RMS distance would be 1.10, 1.16 and 1.17 times as large without, at 5 and 1 % the colours'
+  // error 1.06 times.
   static double steepest(const SurfaceMesh& mesh, const SimplifySurfaceOptions& options) {
     constexpr double kEdges = 2;
     const double length = length_in_result(mesh, options);
