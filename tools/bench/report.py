@@ -16,6 +16,11 @@ tolerance-driven peers run by turns, and "ratio" is the median of tinsmith's wal
 the same turn, whole process / own. Errors are in metres, measured by `tinsmith verify` against every valid sample.
 """
 
+OTHERS = """\
+The sample terrain is in RESULTS.md, other terrain in [TERRAINS.md](TERRAINS.md), surfaces with and without colours in
+[surface/RESULTS.md](surface/RESULTS.md).
+"""
+
 VOIDS = """\
 This input has voids. It is measured as it is beside the peers that know voids, and as {name}_filled, its voids filled by
 inverse distance, beside all. Its exact outline takes vertices at every tolerance, so that few may be out of reach.
@@ -254,7 +259,7 @@ def input_section(cases, one, two, leader):
 def markdown(document, efforts):
     """RESULTS.md: for each effort a summary and, for each input, the three tables."""
     all_tools = tools.tinsmith_tools(efforts) + tools.TOLERANCE_DRIVEN + tools.COUNT_DRIVEN
-    text = "# Measured beside the peers\n\n" + made_by(document, all_tools) + "\n" + KNOWN
+    text = "# Measured beside the peers\n\n" + OTHERS + "\n" + made_by(document, all_tools) + "\n" + KNOWN
     cases = document["cases"]
     leader = tools.tinsmith_tools(efforts)[1].name
     for effort in efforts:
