@@ -172,6 +172,8 @@ def one_case_a_line(document):
 def write_tables(bench, options, cases):
     loads = [run["load_before"] for case in cases for runs in case["results"].values() for run in runs
              if "load_before" in run]
+    if not loads:
+        raise SystemExit("bench: --tables: none of these was run with this build; leave --tables out to run them")
     document = {"command": "tools/bench/run.sh " + shlex.join(options.words), "machine": tools.machine(),
                 "versions": tools.versions(bench.build, TOP), "limit_seconds": bench.limit,
                 "load": {"median": statistics.median(loads), "highest": max(loads)}, "cases": cases}
