@@ -8,6 +8,12 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
+void follow_collapses(const SurfaceMesh& mesh, FitSamples& samples) {
+  for (std::int32_t& v : samples.vertex) {
+    while (!mesh.is_alive(v) && samples.vertex[at(v)] != v) v = samples.vertex[at(v)];
+  }
+}
+
 FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const SimplifySurfaceOptions& options) {
   FitSamples samples;
   const std::size_t n_samples = mesh.position.size() + mesh.original_triangle.size();

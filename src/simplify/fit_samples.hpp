@@ -23,6 +23,9 @@ struct FitSamples {
   bool is_valued(std::size_t sample) const { return sample < has_values.size() && has_values[sample] != 0; }
 };
 
+/// Lets the samples near vertices that are gone lie near those that they became.
+void follow_collapses(const SurfaceMesh& mesh, FitSamples& samples);
+
 /// With values when they have a weight.
 FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const SimplifySurfaceOptions& options);
 

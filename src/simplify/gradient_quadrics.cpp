@@ -59,6 +59,8 @@ class Gradient : public AttributeQuadrics {
     for (std::size_t c = 0; c < n_; ++c) add(linear(kept, c), linear(gone, c), 1);
   }
 
+  void set_weight(double weight) override { attribute_weight_ = weight; }
+
  private:
   Linear& linear(std::int32_t w, std::size_t c) { return linear_[at(w) * n_ + c]; }
   const Linear& linear(std::int32_t w, std::size_t c) const { return linear_[at(w) * n_ + c]; }

@@ -17,6 +17,7 @@
 #include "simplify/surface_link.hpp"
 #include "simplify/surface_mesh.hpp"
 #include "simplify/surface_star.hpp"
+#include "simplify/surface_values.hpp"
 #include "simplify/surface_wedges.hpp"
 #include "tinsmith/error.hpp"
 #include "tinsmith/simplify.hpp"
@@ -87,6 +88,8 @@ class SurfaceSimplifier {
     geometry_ = plane_quadrics(mesh_, !has_combined(), options_.area_weights);
     push_all();
     n_start_ = n_triangles_;
+    target_ = target;
+    if (is_to_be_balanced()) balance_attributes();
     collapse_down_to(target);
     if (static_cast<double>(n_triangles_) > target) {
       push_refused();
@@ -111,6 +114,25 @@ class SurfaceSimplifier {
 
   using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
+  // A few times on the way to the last triangles: how far places and values will be off is known only then.
+  void balance_attributes() {
+    for (const double times : {8, 4, 2}) {
+      if (!(static_cast<double>(n_triangles_) > times * target_)) continue;
+      collapse_down_to(times * target_);
+      if (queue_.empty()) return;
+      follow_collapses(mesh_, samples_);
+      attributes_->set_weight(balanced_weight(attribute_weight(mesh_, options_),
+                                              errors_of({mesh_, values_, samples_}),
+                                              static_cast<double>(n_triangles_) / target_));
+      push_all();
+    }
+  }
+
+  bool is_to_be_balanced() const {
+    return options_.quadric == QuadricForm::kGradient && !options_.attribute_weight && !samples_.values.empty() &&
+           target_ > 0;
+  }
+
   void collapse_down_to(double target) {
     const auto n_start = static_cast<double>(n_start_);
     while (!queue_.empty() && static_cast<double>(n_triangles_) > target) {
@@ -120,7 +142,7 @@ class SurfaceSimplifier {
       if (mesh_.origin[at(h)] == kNone || queued_cost_[at(h)] != cost) continue;
       queued_cost_[at(h)] = kNotQueued;
       try_collapse(h, cost);
-      if (++n_steps_ % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target));
+      if (++n_steps_ % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target_));
     }
   }
 
@@ -128,7 +150,7 @@ class SurfaceSimplifier {
     std::vector<Entry> entries;
     entries.reserve(mesh_.origin.size());  // nearly half of it for those that come later
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
-      if (h < mesh_.twin[at(h)]) continue;
+      if (mesh_.origin[at(h)] == kNone || h < mesh_.twin[at(h)]) continue;
       if (note_cost(h)) entries.push_back(entry_of(queued_cost_[at(h)], h));
     }
     queue_ = Queue({}, std::move(entries));  // in linear time
@@ -445,6 +467,7 @@ class SurfaceSimplifier {
   LinkCondition link_condition_;
   std::size_t n_triangles_;
   std::size_t n_start_ = 0;
+  double target_ = 0;  // triangles
   std::uint64_t n_steps_ = 0;
   bool tries_places_ = false;
   FitSamples samples_;  // empty: no fit

@@ -56,8 +56,9 @@ void put_in_range(const WedgeValues& all, std::span<double> values) {
 
 // A surface whose edges are longer by a factor is off by the square of it, and its values, where they jump, are
 // wrong on an area that grows with it: of the squared errors the ratio is its cube. Of a checkered bunny at 20, 5
-// and 1 % the colours' error, as a multiple of that of geometry alone, is 0.63, 0.70 and 0.89 at 1.09, 1.06
-// and 1.08 times the RMS distance; with the weight below it is 0.65, 0.82 and 0.94.
+// and 1 % the colours' error, as a multiple of that of geometry alone, is 0.65, 0.71 and 0.90 at 1.07, 1.04
+// and 1.06 times the RMS distance; with the weight below it is 0.65, 0.82 and 0.94. While the collapse goes on it
+// may get less: see balanced_weight().
 constexpr double kWeightByCubedLength = 0.22;
 // Of combined quadrics, which can't make jumps less steep: with the above, distances are up to 1.26 times. And
 // where the length is not known; a fifth of the triangles of a scan have about that.

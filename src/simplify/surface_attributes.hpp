@@ -59,6 +59,8 @@ class AttributeQuadrics {
   virtual double cost(const WedgePair& pair, const Vec<3>& place, std::span<const double> values) const = 0;
   /// Adds the quadric of the wedge that goes to that of the one that stays.
   virtual void unite(std::int32_t kept, std::int32_t gone) = 0;
+  /// Changes what the costs are multiplied by; only the gradient form can.
+  virtual void set_weight(double) {}
 };
 
 /// The paper's, eq. 25-28: of each attribute the plane, line or point that a triangle's values span in its own

@@ -1,5 +1,8 @@
 #include "simplify/surface_values.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tinsmith {
 
 namespace {
@@ -103,6 +106,33 @@ void pull_by_values(const ValuedSurface& surface, std::size_t sample, const Near
 void fit_values(const ValuedSurface& surface, const std::vector<std::int32_t>& triangle) {
   constexpr int kSteps = 4;
   for (int step = 0; step < kSteps; ++step) step_values(surface, triangle);
+}
+
+SurfaceErrors errors_of(const ValuedSurface& surface) {
+  const std::vector<std::int32_t> not_known(surface.samples.has_values.size(), kNone);
+  SurfaceErrors sums;
+  double weights = 0;
+  for_each_valued(surface, not_known, [&](std::size_t i, const Nearest& there) {
+    const double weight = surface.samples.weight[i];
+    weights += weight;
+    sums.squared_distance += weight * there.squared;
+    sums.squared_difference += weight * squared_difference(surface, i, place_in(surface.mesh, there));
+  });
+  if (!(weights > 0)) return {};
+  return {sums.squared_distance / weights, sums.squared_difference / weights};
+}
+
+// As in attribute_weight(), the ratio of the squared errors grows with the cube of the length. The usual weight is
+// right for what is rough; the smoother a shape, the more it costs to move its vertices, hence the power. Of a
+// checkered sphere and torus at 1 % the colours' error is 0.87 and 0.88 times that of geometry alone, the RMS
+// distance 1.03 and 0.99 times; with the usual weight 0.89 and 0.82, 1.27 and 1.08 times.
+double balanced_weight(double usual, const SurfaceErrors& errors, double times_fewer) {
+  constexpr double kPower = 2.5;
+  constexpr double kLeast = 0.1;  // on flat ground too
+  const double length = std::sqrt(times_fewer);
+  const double off = errors.squared_distance * length * length * length;
+  if (!(off < usual * errors.squared_difference)) return usual;
+  return usual * std::max(kLeast, std::pow(off / (usual * errors.squared_difference), kPower));
 }
 
 }  // namespace tinsmith

@@ -40,6 +40,17 @@ void pull_by_values(const ValuedSurface& surface, std::size_t sample, const Near
 /// for it (its first halfedge; kNone: none), are nearer in the least-squares sense. Seams, and lines, stay.
 void fit_values(const ValuedSurface& surface, const std::vector<std::int32_t>& triangle);
 
+/// Means over the samples with values, by their weights.
+struct SurfaceErrors {
+  double squared_distance = 0;
+  double squared_difference = 0;  // of values, summed over the components
+};
+SurfaceErrors errors_of(const ValuedSurface& surface);
+
+/// The weight that values have in a collapse to so many times fewer triangles than the surface with these errors
+/// has: the usual one, or less where the shape will be off by less.
+double balanced_weight(double usual, const SurfaceErrors& errors, double times_fewer);
+
 /// Calls found(sample, nearest) for the samples with values that lie anywhere.
 template <class Found>
 void for_each_valued(const ValuedSurface& surface, const std::vector<std::int32_t>& triangle, Found&& found) {

@@ -84,5 +84,31 @@ TEST(PullByValues, DrawsVerticesAlongTheSlope) {
   }
 }
 
+// The one sample with a value lies an eighth over the middle, where the value is 2 less than it wants.
+TEST(ErrorsOf, AreDistancesAndDifferencesOfSamplesWithValues) {
+  Square square({0, 0, 0, 0, 1}, {0, 0, 0, 0, 3});
+  square.samples.place[at(square.vertex(4))] = scaled(square.mesh, {0.5, 0.5, 0.125});
+  const SurfaceErrors errors = errors_of(square.valued());
+  EXPECT_NEAR(errors.squared_distance, 1.0 / 64, 1e-12);
+  EXPECT_NEAR(errors.squared_difference, 4, 1e-12);
+}
+
+// As rough as the usual weight expects, with four times the triangles: places are off by 1/8 of what they will be.
+TEST(BalancedWeight, IsTheUsualOneWhereTheShapeIsRough) {
+  EXPECT_DOUBLE_EQ(balanced_weight(1e-3, {1e-3, 8}, 4), 1e-3);
+  EXPECT_DOUBLE_EQ(balanced_weight(1e-3, {1, 8}, 4), 1e-3);
+  EXPECT_DOUBLE_EQ(balanced_weight(1e-3, {1e-3, 0}, 4), 1e-3);  // nor where values are right
+}
+
+TEST(BalancedWeight, FallsWithTheShapesErrorButNotToNothing) {
+  double last = 1e-3;
+  for (const double squared_distance : {0.9e-3, 0.7e-3, 0.5e-3}) {
+    const double weight = balanced_weight(1e-3, {squared_distance, 8}, 4);
+    EXPECT_LT(weight, last);
+    last = weight;
+  }
+  EXPECT_GT(balanced_weight(1e-3, {0, 8}, 4), 0);
+}
+
 }  // namespace
 }  // namespace tinsmith
