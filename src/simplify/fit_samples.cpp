@@ -28,10 +28,7 @@ FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const
   // Exact for the squares of linear functions: a twelfth of the triangle at each corner, the rest in the middle.
   for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
     const auto twelfth = static_cast<float>(triangle_weight(mesh, h, options.area_weights) / 12);
-    const auto place = [&](std::int32_t k) { return mesh.position[at(mesh.origin[at(h + k)])]; };
-    const Vec<3> a = place(0);
-    const Vec<3> b = place(1);
-    const Vec<3> c = place(2);
+    const auto [a, b, c] = corners_of(mesh, h);
     for (std::int32_t k = 0; k < 3; ++k) samples.weight[at(mesh.origin[at(h + k)])] += twelfth;
     constexpr double kThird = 1.0 / 3;
     samples.place.push_back(

@@ -106,10 +106,9 @@ class Gradient : public AttributeQuadrics {
   // The function within the triangle's plane that has the values at its corners, with no slope across (eq. 5 of
   // Hoppe); of one that is too steep the mean, with less slope.
   void add_triangle(const SurfaceMesh& mesh, const WedgeValues& all, std::int32_t h, bool area_weights) {
-    const auto place = [&](std::int32_t k) { return mesh.position[at(mesh.origin[at(h + k)])]; };
-    const Vec<3> p = place(0);
-    const Vec<3> u = place(1) - p;
-    const Vec<3> v = place(2) - p;
+    const auto [p, q, r] = corners_of(mesh, h);
+    const Vec<3> u = q - p;
+    const Vec<3> v = r - p;
     const Vec<3> normal = cross(u, v);
     const double squared = dot(normal, normal);
     const double weight = triangle_weight(mesh, h, area_weights);

@@ -28,11 +28,6 @@ constexpr int kValuedRounds = 4;
 
 constexpr double kTiny = 1e-9;  // of the largest extent: a sample that near lies on the surface
 
-std::array<Vec<3>, 3> corners_of(const SurfaceMesh& mesh, std::int32_t h) {
-  return {mesh.position[at(mesh.origin[at(h)])], mesh.position[at(mesh.destination(h))],
-          mesh.position[at(mesh.origin[at(Halfedges::previous(h))])]};
-}
-
 Vec<3> times(const Vec<3>& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
 
 // ---- steps of the vertices

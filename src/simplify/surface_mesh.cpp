@@ -237,6 +237,11 @@ Vec<3> scaled(const SurfaceMesh& mesh, const Vec<3>& p) {
   return q;
 }
 
+std::array<Vec<3>, 3> corners_of(const SurfaceMesh& mesh, std::int32_t h) {
+  const auto place = [&](std::int32_t side) { return mesh.position[at(mesh.origin[at(side)])]; };
+  return {place(h), place(Halfedges::next(h)), place(Halfedges::previous(h))};
+}
+
 double triangle_area(const SurfaceMesh& mesh, std::int32_t h) {
   const Vec<3> n = normal_of(mesh, h);
   return std::sqrt(dot(n, n)) / 2;

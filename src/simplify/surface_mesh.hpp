@@ -43,6 +43,9 @@ struct SurfaceMesh : Halfedges {
 /// A place of the input in the mesh's coordinates.
 Vec<3> scaled(const SurfaceMesh& mesh, const Vec<3>& p);
 
+/// The places of the corners of a halfedge's triangle, from its origin on.
+std::array<Vec<3>, 3> corners_of(const SurfaceMesh& mesh, std::int32_t h);
+
 /// Of the triangle of a halfedge.
 double triangle_area(const SurfaceMesh& mesh, std::int32_t h);
 

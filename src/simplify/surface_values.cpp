@@ -24,13 +24,13 @@ void add(Vec<3>& to, const Vec<3>& what, double factor) {
 
 // By how much the shares of a triangle's corners grow with the place; false without area.
 bool slopes_of_shares(const SurfaceMesh& mesh, std::int32_t h, std::array<Vec<3>, 3>& slopes) {
-  const auto place = [&](std::int32_t k) { return mesh.position[at(mesh.origin[at(h + k % 3)])]; };
-  const Vec<3> normal = cross(place(1) - place(0), place(2) - place(0));
+  const std::array<Vec<3>, 3> corners = corners_of(mesh, h);
+  const Vec<3> normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double squared = dot(normal, normal);
   if (!(squared > 0)) return false;
-  for (std::int32_t k = 0; k < 3; ++k) {
-    slopes[at(k)] = {};
-    add(slopes[at(k)], cross(normal, place(k + 2) - place(k + 1)), 1 / squared);
+  for (std::size_t k = 0; k < 3; ++k) {
+    slopes[k] = {};
+    add(slopes[k], cross(normal, corners[(k + 2) % 3] - corners[(k + 1) % 3]), 1 / squared);
   }
   return true;
 }

@@ -57,7 +57,7 @@ options:
                          the place) (default {})
   --attribute-weight A   how much the values at the vertices count beside the shape, whose largest extent is 1; 0: they
                          follow (default: 1 for separate, 3e-7 for combined; gradient: the more, the fewer triangles
-                         are to be left, 3e-7 when that is open)
+                         are to be left and the rougher the shape is, 3e-7 when their number is open)
   --crease D             edges whose triangles meet at more than D degrees are features; 0 to 180 (default: none)
   --no-seams             edges along which colours or normals differ are no features
   --feature-edges FILE   more features: text, one edge a line as two vertex numbers of the input, from 0 in the order
