@@ -44,7 +44,8 @@ struct SimplifySurfaceOptions {
   QuadricForm quadric = QuadricForm::kGradient;
   // alpha of Cost = E_g + alpha E_c, the geometry in units of its largest extent; 0: attributes follow and cost
   // nothing. Default: 1 for separate quadrics, 3e-7 for combined ones and where no number of triangles is asked
-  // for, else 0.22 x the cube of the length of the result's edges (the root of its triangles' mean area).
+  // for, else 0.22 x the cube of the length of the result's edges (the root of its triangles' mean area), and down
+  // to a tenth of it where the shape is smooth (with the fit).
   std::optional<double> attribute_weight;
   std::optional<double> crease;  // degrees: edges whose triangles meet at more than that are features
   bool keep_seams = true;  // edges along which colours or normals differ are features; false: one side's remain

@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import shlex
+import signal
 import statistics
 import subprocess
 import sys
@@ -26,12 +27,30 @@ JUDGED = ["samples", "uncovered", "vertices", "triangles", "max_error", "rmse", 
           "non_manifold_edges", "t_junctions", "bytes"]
 
 
+class Patience:
+    """Which of the tools that decimate the full mesh are not worth starting: what they take grows with the triangles
+    that they remove, so one that ran into the limit is not run where it has as many to remove, or more."""
+
+    def __init__(self, limit):
+        self.limit = limit
+        self.hopeless = {}  # by tool: the triangles to remove, and where that was
+
+    def why_not(self, tool, n_removed):
+        n_hopeless, where = self.hopeless.get(tool.name, (None, None))
+        return f"not run: over {self.limit:g} s {where}" if n_hopeless and n_removed >= n_hopeless else None
+
+    def learn(self, tool, case, n_removed, run):
+        if tool.decimates and run.get("limit_hit") and not self.why_not(tool, n_removed):
+            self.hopeless[tool.name] = n_removed, f"for {case['input']}, {case['tolerance']:g} m"
+
+
 class Bench:
     """What all runs of one benchmark share."""
 
     def __init__(self, build, limit, runs_nothing):
         self.build = build
         self.limit = limit
+        self.patience = Patience(limit)
         self.runs_nothing = runs_nothing
         self.binary = build / "tinsmith"
         identity = hashlib.sha256(self.binary.read_bytes()).hexdigest()[:12]
@@ -85,8 +104,12 @@ class Bench:
                 result["sha256"] = hashlib.sha256(self.mesh.read_bytes()).hexdigest()
                 if repetition == 0:
                     result["judged"] = self.judge(case)
+        elif result["limit_hit"]:
+            result["failed"] = f"over {self.limit:g} s"
+        elif result["exit_code"] == -signal.SIGKILL:
+            result["failed"] = "out of memory"  # no one else sends it
         else:
-            result["failed"] = f"over {self.limit} s" if result["limit_hit"] else (wrong or ["no message"])[-1]
+            result["failed"] = (wrong or ["no message"])[-1]
         self.mesh.unlink(missing_ok=True)
         unfinished = path.with_suffix(".new")
         unfinished.write_text(json.dumps(result, indent=1))
@@ -112,21 +135,19 @@ def suits(tool, case):
     return tool.name != "martini" or (width == height and (width - 1) & (width - 2) == 0)
 
 
-def measure_count_driven(bench, case, options, n_triangles, too_slow):
-    """Each at the same count, once; those in `too_slow` ran into the limit at a finer tolerance, with less to do."""
+def measure_count_driven(bench, case, options, judged):
+    """Each at the count of triangles that `judged` has, once."""
     results = {}
+    n_removed = 2 * judged["samples"] - judged["triangles"]
     for tool in (t for t in tools.COUNT_DRIVEN if t.name in options.peers and suits(t, case)):
-        if tool.name in too_slow:
-            results[tool.name] = [{"failed": too_slow[tool.name]}]
-            continue
-        run = bench.once(tool, case, 0, n_triangles)
+        reason = bench.patience.why_not(tool, n_removed)
+        run = {"failed": reason} if reason else bench.once(tool, case, 0, judged["triangles"])
+        bench.patience.learn(tool, case, n_removed, run)
         results[tool.name] = [run]
-        if run.get("limit_hit") and tool.decimates:
-            too_slow[tool.name] = f"not run: over {bench.limit:g} s at {case['tolerance']:g} m"
     return results
 
 
-def measure_case(bench, case, options, n_runs, too_slow):
+def measure_case(bench, case, options, n_runs):
     """All tools at one tolerance: tinsmith and the tolerance-driven peers by turns, then the count-driven ones."""
     ours = tools.tinsmith_tools(options.efforts)
     peers = [t for t in tools.TOLERANCE_DRIVEN if t.name in options.peers and suits(t, case)]
@@ -140,7 +161,7 @@ def measure_case(bench, case, options, n_runs, too_slow):
         results[tools.CROSS_CHECK.name] = [bench.once(tools.CROSS_CHECK, case, 0)]
     leader = results[ours[0].name][0]
     if "judged" in leader and "triangles" in leader["judged"]:
-        results |= measure_count_driven(bench, case, options, leader["judged"]["triangles"], too_slow)
+        results |= measure_count_driven(bench, case, options, leader["judged"])
     return results
 
 
@@ -156,11 +177,11 @@ def measure_input(bench, name, options):
     size = (header["width"], header["height"])
     # Five runs for the small ones, where a run is short and its time less sure.
     n_runs = options.runs or (3 if options.quick else 5 if size[0] * size[1] < 2e6 else 3)
-    cases, too_slow = [], {}
+    cases = []
     for tolerance in options.tolerances or (inputs.QUICK_TOLERANCES if options.quick else inputs.tolerances(name)):
         shown = {"input": name, "size": size, "has_voids": header["has_voids"], "tolerance": tolerance}
         case = {**shown, "rasters": rasters, "grid": grid}
-        cases.append({**shown, "results": measure_case(bench, case, options, n_runs, too_slow)})
+        cases.append({**shown, "results": measure_case(bench, case, options, n_runs)})
     return cases
 
 
@@ -221,15 +242,19 @@ def parse(arguments):
 
 def main(arguments):
     options = parse(arguments)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     chosen = options.inputs or (["matterhorn"] if options.quick else inputs.names(options.data))
     bench = Bench(options.build, options.limit, options.tables)
     cases = []
-    for name in chosen:
-        if options.calibrate:
-            inputs.calibrate(bench.build, name, inputs.files(name, TOP, bench.build, options.data))
-        else:
-            cases += measure_input(bench, name, options)
-            write_tables(bench, options, cases)
+    try:
+        for name in chosen:
+            if options.calibrate:
+                inputs.calibrate(bench.build, name, inputs.files(name, TOP, bench.build, options.data))
+            else:
+                cases += measure_input(bench, name, options)
+                write_tables(bench, options, cases)
+    finally:
+        bench.mesh.unlink(missing_ok=True)
     if cases:
         print(options.out)
 

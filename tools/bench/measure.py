@@ -1,6 +1,7 @@
 """Runs one program and says what it cost."""
 
 import os
+import pathlib
 import signal
 import subprocess
 import tempfile
@@ -19,7 +20,7 @@ def run(command, limit):
     """Wall and CPU seconds of the whole process, its peak memory in bytes, its exit code and what it printed.
 
     After `limit` seconds it is ended, and "limit_hit" says so. The peak is the kernel's (ru_maxrss); it can't be
-    less than what this small Python itself holds, some 20 MB.
+    less than what this small Python itself holds, some 20 MB. When memory runs out, this program is the one to go.
     """
     load = os.getloadavg()[0]
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
@@ -27,9 +28,15 @@ def run(command, limit):
         child = subprocess.Popen(command, stdout=out, stderr=err, start_new_session=True)
         timer = threading.Timer(limit, _kill, [child.pid])
         timer.start()
-        _, status, usage = os.wait4(child.pid, 0)
+        try:
+            pathlib.Path(f"/proc/{child.pid}/oom_score_adj").write_text("1000")
+            _, status, usage = os.wait4(child.pid, 0)
+        except BaseException:  # interrupted: nothing is left running
+            _kill(child.pid)
+            raise
+        finally:
+            timer.cancel()
         wall = time.perf_counter() - start
-        timer.cancel()
         child.returncode = os.waitstatus_to_exitcode(status)
         out.seek(0)
         err.seek(0)
