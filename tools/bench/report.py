@@ -17,8 +17,8 @@ the same turn, whole process / own. Errors are in metres, measured by `tinsmith 
 """
 
 OTHERS = """\
-The sample terrain is in RESULTS.md, other terrain in [TERRAINS.md](TERRAINS.md), surfaces with and without colours in
-[surface/RESULTS.md](surface/RESULTS.md).
+The sample terrain is in RESULTS.md, other terrain in [TERRAINS.md](TERRAINS.md), surfaces in
+[surface/RESULTS.md](surface/RESULTS.md), with colours in [surface/COLOURS.md](surface/COLOURS.md).
 """
 
 VOIDS = """\

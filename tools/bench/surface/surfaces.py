@@ -51,7 +51,7 @@ def arguments():
     parser.add_argument("--share", action="append", type=float, help="percent of the triangles (default 50, 20, 5, 1)")
     parser.add_argument("--tool", action="append", choices=list(TOOLS), help="(default: all)")
     parser.add_argument("--option", default="", help="more options for tinsmith simplify, in one word")
-    parser.add_argument("--colours", action="store_true", help="also the forms of quadrics on a coloured bunny")
+    parser.add_argument("--colours", action="store_true", help="instead the forms of quadrics, on coloured meshes")
     parser.add_argument("--repeat", type=int, default=1, help="runs of each tool, by turns, of which the fastest counts")
     parser.add_argument("--again", action="store_true", help="measure anew what BUILD/surface/runs.json has already")
     parser.add_argument("--out", type=pathlib.Path, help="the table as Markdown (default: BUILD/surface/RESULTS.md)")
@@ -201,20 +201,23 @@ def preface(options):
     peers = ", ".join(f"{name} {version_of(PACKAGES[tool])}" for name, tool in
                       (("CGAL", "cgal-gh"), ("VTK", "vtk-quadric"), ("meshoptimizer", "meshopt")))
     command = " ".join(["tools/bench/surface/run.sh", *map(shlex.quote, options.command)])
-    return (f"Made by `{command}`.\n\ntinsmith{option} and {peers}, on {m['processor']}, one thread each. Distances are symmetric, between "
+    other = "without colours are in [RESULTS.md](RESULTS.md)" if options.colours else "with colours are in [COLOURS.md](COLOURS.md)"
+    return (f"Made by `{command}`.\n\nSurfaces {other}.\n\ntinsmith{option} and {peers}, on {m['processor']}, one thread each. Distances are symmetric, between "
             f"{judge.N_SAMPLES} samples (for the largest one also the vertices) and the other surface, as thousandths "
             "of the diagonal of the mesh's box, by VTK. Seconds: from triangles in memory to triangles in memory. Turned "
             "edges: the normals of the two triangles are more than 90 degrees apart.")
 
 
 def tables(options):
+    if options.colours:
+        coloured = (load(name, options.build / "surface") for name in options.mesh or colours.MESHES)
+        yield from colours.tables(options.build, coloured, [20, 5, 1])
+        return
     runs = Runs(options)
     for name in options.mesh or meshes.MESHES:
         yield from table(options, runs, load(name, options.build / "surface"))
     if not options.tool or {"tinsmith", "cgal-gh", "vtk-quadric"} <= set(options.tool):
         yield from summary(options, runs)
-    if options.colours:
-        yield from colours.table(options.build, load("bunny", options.build / "surface"), [20, 5, 1])
 
 
 def main():
