@@ -212,8 +212,8 @@ TEST(SimplifySurface, KeepsColoursBetterThanGeometryAlone) {
         Case{with_gradient_colour(scan(40)), 0.1, 0.9},
         // Smooth shapes are off by little, and values may take little of it.
         Case{with_checker_colour(sphere(80), 8), 0.01, 0.85},
-        Case{with_checker_colour(torus(150, 75), 6), 0.03, 0.85},
-        Case{with_gradient_colour(sphere(60)), 0.03, 0.5}}) {
+        Case{with_checker_colour(torus(150, 75), 6), 0.03, 0.85}, Case{with_gradient_colour(sphere(60)), 0.03, 0.5},
+        Case{with_gradient_colour(sphere(80)), 0.01, 0.5}}) {
     SimplifySurfaceOptions options;
     const Surface with_colour = simplified(surface, options, ratio).surface;
     options.attribute_weight = 0;  // the values follow the place, nothing more

@@ -57,22 +57,46 @@ def read(path):
     return vtk_to_numpy(mesh.GetPoints().GetData()).astype(float), triangles, colours
 
 
-def _coloured_samples(vertices, triangles, colours):
-    """Places spread evenly over the area, with the colours there."""
+def _samples(vertices, triangles):
+    """Places spread evenly over the area: the triangles they are in, and the shares of their corners."""
     random = np.random.default_rng(judge.SEED)
     a, b, c = (vertices[triangles[:, i]] for i in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    chosen = triangles[random.choice(len(triangles), N_SAMPLES, p=area / area.sum())]
-    root, share = np.sqrt(random.random((N_SAMPLES, 1))), random.random((N_SAMPLES, 1))
-    weights = (1 - root, root * (1 - share), root * share)
-    return [sum(w * values[chosen[:, i]] for i, w in enumerate(weights)) for values in (vertices, colours)]
+    chosen = random.choice(len(triangles), N_SAMPLES, p=area / area.sum())
+    root, share = np.sqrt(random.random(N_SAMPLES)), random.random(N_SAMPLES)
+    return triangles[chosen], np.stack([1 - root, root * (1 - share), root * share], axis=1)
 
 
-def _colour_error(tree, colours, result):
-    """RMS over samples of the result: to the colour of the input's nearest sample."""
-    places, found = _coloured_samples(*result)
-    wanted = colours[tree.query(places)[1]]
-    return np.sqrt(np.mean((found - wanted) ** 2))
+def _between(values, corners, shares):
+    return np.einsum("ij,ijk->ik", shares, values[corners])
+
+
+def _shares_of_nearest(vertices, corners, places):
+    """Of the corners, in about the place of each triangle that is nearest: outside of it shares are cut at 0."""
+    a, b, c = (vertices[corners[:, i]] for i in range(3))
+    normal = np.cross(b - a, c - a)
+    squared = np.maximum(np.einsum("ij,ij->i", normal, normal), np.finfo(float).tiny)
+    shares = np.stack([np.einsum("ij,ij->i", np.cross(v - u, places - u), normal) / squared
+                       for u, v in ((b, c), (c, a), (a, b))], axis=1).clip(0, 1)
+    return shares / np.maximum(shares.sum(axis=1, keepdims=True), np.finfo(float).tiny)
+
+
+class Coloured:
+    """The input, to be asked for the colour at a place nearby."""
+
+    def __init__(self, vertices, triangles, colours):
+        self.vertices, self.colours = vertices, colours
+        self.corners, shares = _samples(vertices, triangles)
+        self.tree = cKDTree(_between(vertices, self.corners, shares))
+
+    def error(self, result):
+        """RMS over samples of the result: to the colour in the triangle of the input's nearest sample."""
+        vertices, triangles, colours = result
+        corners, shares = _samples(vertices, triangles)
+        places = _between(vertices, corners, shares)
+        there = self.corners[self.tree.query(places)[1]]
+        wanted = _between(self.colours, there, _shares_of_nearest(self.vertices, there, places))
+        return np.sqrt(np.mean((_between(colours, corners, shares) - wanted) ** 2))
 
 
 def _options(form):
@@ -82,8 +106,7 @@ def _options(form):
 def _rows(build, mesh, name, share):
     path, out = build / "surface" / f"{mesh['name']}-{name}.ply", build / "surface" / "result.ply"
     vertices, triangles, colours = read(path)
-    places, sampled = _coloured_samples(vertices, triangles, colours)
-    tree = cKDTree(places)
+    coloured = Coloured(vertices, triangles, colours)
     first = None
     for form, n_coefficients in COEFFICIENTS.items():
         run = subprocess.run([build / "tinsmith", "simplify", path, out, "--triangles",
@@ -91,7 +114,7 @@ def _rows(build, mesh, name, share):
                              check=True, capture_output=True, text=True)
         result = read(out)
         row = {"mesh": mesh["name"], "colours": name, "share": share, "form": form, "bytes": 8 * n_coefficients,
-               "colour": _colour_error(tree, sampled, result),
+               "colour": coloured.error(result),
                "rms": judge.distance((vertices, triangles), result[:2])[1] / mesh["diagonal"],
                "seconds": json.loads(run.stdout)["simplify_seconds"]}
         first = first or row
@@ -121,8 +144,8 @@ def _summary(rows):
 
 def tables(build, coloured, shares):
     """Line by line, as the runs end."""
-    yield (f"\n## Colours\n\nRMSE of a component in [0, 1] between {N_SAMPLES} samples and the nearest of as many samples "
-           "of the input. RMS distance as above. Bytes: of the quadrics of a vertex.")
+    yield (f"\n## Colours\n\nRMSE of a component in [0, 1] between {N_SAMPLES} samples and the input, in its triangle "
+           "that has the nearest of as many samples. RMS distance as above. Bytes: of the quadrics of a vertex.")
     rows = []
     for mesh in coloured:
         vertices, triangles = mesh["surface"]
