@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/typical_area.hpp"
 #include "pipeline/window_queue.hpp"
 #include "pipeline/workload.hpp"
 #include "stitch/welded_surface.hpp"
@@ -65,6 +66,7 @@ class Run {
         graph_(result.graph),
         store_(result.store),
         surface_(result.surface),
+        typical_area_(typical_area(field, options.tolerance)),
         workload_(field, graph_),
         queue_(graph_, [&](WindowName task) { return note_if_done(task); }) {}
 
@@ -121,7 +123,8 @@ class Run {
   void work_first(WindowName task) {
     if (workload_.is_void(task)) return store_.put_empty(task);
     const GridRect rect = graph_.samples(task);
-    FirstChunk result = first_chunk(field_, rect, window_options(frame_, rect, options_), options_.colours);
+    FirstChunk result =
+        first_chunk(field_, rect, window_options(frame_, rect, options_, typical_area_), options_.colours);
     const WindowCounts counts{result.samples, result.valid_cells, result.start_triangles,
                               result.chunk.triangles.size()};
     store_.put(task, parts_of(task, std::move(result.chunk)), counts);
@@ -133,8 +136,8 @@ class Run {
     std::vector<const Chunk*> parts;
     parts.reserve(held.size());
     for (const auto& part : held) parts.push_back(part.get());
-    Chunk chunk =
-        seam_chunk(field_, parts, window_options(frame_, graph_.samples(task), options_), options_.colours);
+    const WindowOptions options = window_options(frame_, graph_.samples(task), options_, typical_area_);
+    Chunk chunk = seam_chunk(field_, parts, options, options_.colours);
     const WindowCounts counts{0, 0, 0, chunk.triangles.size()};
     store_.put(task, parts_of(task, std::move(chunk)), counts);
   }
@@ -173,6 +176,7 @@ class Run {
   const WindowGraph& graph_;
   ChunkStore& store_;
   WeldedSurface& surface_;
+  double typical_area_;
   Workload workload_;
   WindowQueue queue_;
   tbb::task_group group_;
@@ -211,10 +215,11 @@ void remark_once(CompressReport& report, const std::string& remark) {
 
 }  // namespace
 
-WindowOptions window_options(const GridFrame& frame, const GridRect& window, const RoundsOptions& options) {
+WindowOptions window_options(const GridFrame& frame, const GridRect& window, const RoundsOptions& options,
+                             double area) {
   const auto [step_x, step_y] =
       frame.metres_per_step(window.x0 + window.width / 2.0, window.y0 + window.height / 2.0);
-  return {options.tolerance, step_y / step_x, options.placement, options.effort, options.colour};
+  return {options.tolerance, step_y / step_x, options.placement, options.effort, options.colour, area};
 }
 
 std::shared_ptr<const TerrainSurface> run_rounds(const HeightField& field, const GridFrame& frame,

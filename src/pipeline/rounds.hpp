@@ -26,8 +26,9 @@ struct RoundsOptions {
   ColourOptions colour{};
 };
 
-/// What the tasks on a window are done with.
-WindowOptions window_options(const GridFrame& frame, const GridRect& window, const RoundsOptions& options);
+/// What the tasks on a window are done with; `area` is the field's typical_area().
+WindowOptions window_options(const GridFrame& frame, const GridRect& window, const RoundsOptions& options,
+                             double area);
 
 /// Compresses a field; goes on from what an earlier run with the same options left in the folder. Must be called
 /// inside the task arena that limits the threads; the result does not depend on how many there are. Fills the

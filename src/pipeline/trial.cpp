@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/typical_area.hpp"
 #include "pipeline/workload.hpp"
 #include "tinsmith/error.hpp"
 
@@ -108,8 +109,10 @@ Trial try_windows(const HeightField& field, const GridFrame& frame, const std::v
                   const RoundsOptions& options, const Progress& progress) {
   Trial trial;
   const auto start = std::chrono::steady_clock::now();
+  const double area = typical_area(field, options.tolerance);
   for (const GridRect& window : windows) {
-    const FirstChunk result = first_chunk(field, window, window_options(frame, window, options), options.colours);
+    const FirstChunk result =
+        first_chunk(field, window, window_options(frame, window, options, area), options.colours);
     trial.triangles += triangles_without_seams(result.chunk, window);
     trial.cells += static_cast<double>(result.valid_cells);
     trial.first_triangles += static_cast<double>(result.chunk.triangles.size());

@@ -12,22 +12,10 @@
 #include "samples/colour_grid.hpp"
 #include "samples/height_grid.hpp"
 #include "simplify/colour_fit.hpp"
+#include "simplify/labour.hpp"
 #include "tinsmith/options.hpp"
 
 namespace tinsmith {
-
-/// How hard to try.
-struct Labour {
-  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  int refinements =
-      0;  // rounds of vertex moves, flips and further collapses after the first pass, then one without
-  // Edges whose mean squared quadric error is more than this times the squared tolerance are not tried.
-  double patience = kNoLimit;
-  // Nor may the root of the mean squared error over a new star be more than this times the tolerance.
-  double roughness = kNoLimit;
-};
-
-Labour labour_of(Effort effort);
 
 struct SimplifyOptions {
   double tolerance = 0;  // vertical units of the samples: no sample under the mesh is ever farther off
@@ -35,6 +23,8 @@ struct SimplifyOptions {
   Labour labour;
   bool only_unsettled = false;  // start only from vertices that are not settled, and from what changes around them
   ColourOptions colour = {};    // of meshes that have colours
+  // Cells: of the triangles that such a surface has in most places; what keeps the errors of its triangles alike.
+  double typical_area = std::numeric_limits<double>::infinity();
 };
 
 /// What happened, for reports and for tests that want to know that they tested something.

@@ -16,20 +16,15 @@ namespace tinsmith {
 
 namespace {
 
-// The tolerance less what the rounding of doubles may add when somebody else measures. A tolerance of nearly
-// zero is taken as that rounding: exact planes are planes.
-double safe_tolerance(const HeightGrid& samples, double tolerance) {
-  double largest = 0;
-  for (const double z : samples.z) largest = std::max(largest, std::abs(z));  // NaN never is the larger
-  const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest;
-  return std::max(tolerance - rounding, rounding);
-}
-
 GridRect grown(const GridRect& r) { return {r.x0 - 1, r.y0 - 1, r.width + 2, r.height + 2}; }
 
 SimplifyOptions simplify_options(const HeightGrid& samples, const WindowOptions& options, bool only_unsettled) {
-  return {safe_tolerance(samples, options.tolerance), options.placement, labour_of(options.effort), only_unsettled,
-          options.colour};
+  return {safe_tolerance(samples, options.tolerance),
+          options.placement,
+          labour_of(options.effort),
+          only_unsettled,
+          options.colour,
+          options.typical_area};
 }
 
 void count_valid(const HeightGrid& samples, const GridRect& window, const HeightField& field, FirstChunk& result) {
@@ -124,6 +119,13 @@ WindowMesh coloured_mesh(const HeightGrid& samples, const GridRect& window, cons
 }
 
 }  // namespace
+
+double safe_tolerance(const HeightGrid& samples, double tolerance) {
+  double largest = 0;
+  for (const double z : samples.z) largest = std::max(largest, std::abs(z));  // NaN never is the larger
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest;
+  return std::max(tolerance - rounding, rounding);
+}
 
 FirstChunk first_chunk(const HeightField& field, const GridRect& window, const WindowOptions& options,
                        const ColourField* colours) {

@@ -3,6 +3,7 @@
 // runs for every window of a round, in any order, on any thread.
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "samples/colour_grid.hpp"
@@ -19,7 +20,13 @@ struct WindowOptions {
   Placement placement = Placement::kOptimal;
   Effort effort = Effort::kDefault;
   ColourOptions colour = {};  // for fields with colours
+  // Cells: of the triangles of the whole surface, see typical_area()
+  double typical_area = std::numeric_limits<double>::infinity();
 };
+
+/// The tolerance less what the rounding of doubles may add when somebody else measures. A tolerance of nearly zero
+/// is taken as that rounding: exact planes are planes.
+double safe_tolerance(const HeightGrid& samples, double tolerance);
 
 /// What a task of round 0 gives.
 struct FirstChunk {

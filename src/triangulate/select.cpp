@@ -1,6 +1,8 @@
 #include "triangulate/select.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdlib>
 
 #include "geometry/triangle_rows.hpp"
 
@@ -21,17 +23,26 @@ class Hierarchy {
       : samples_(samples), tolerance_(tolerance), selection_(selection) {}
 
   void refine(const RightTriangle& t) {
+    if (!touches_window(t)) return;
     const bool is_half_cell = std::abs(t.b.x - t.c.x) == 1;
-    if (is_half_cell || !touches_window(t)) return;
+    if (is_half_cell) return end(t);
     const Fit fit = fit_of(t);
-    if (fit == Fit::kFlat) return;
+    if (fit == Fit::kFlat) return end(t);
     const LatticePoint m{(t.b.x + t.c.x) / 2, (t.b.y + t.c.y) / 2};
     if (fit == Fit::kRough) mark(m);
     refine({m, t.a, t.b});
     refine({m, t.c, t.a});
   }
 
+  const Leaves& leaves() const { return leaves_; }
+
  private:
+  void end(const RightTriangle& t) {
+    if (!is_inside(t.a) || !is_inside(t.b) || !is_inside(t.c) || !samples_.is_valid(t.a.x, t.a.y)) return;
+    ++leaves_.n;
+    leaves_.sum_of_log2_areas += std::bit_width(static_cast<std::uint64_t>(std::abs(orient(t.a, t.b, t.c)))) - 2;
+  }
+
   bool touches_window(const RightTriangle& t) const {
     const GridRect& w = selection_.window;
     return std::min({t.a.x, t.b.x, t.c.x}) < w.x0 + w.width && std::max({t.a.x, t.b.x, t.c.x}) >= w.x0 &&
@@ -95,11 +106,12 @@ class Hierarchy {
   const HeightGrid& samples_;
   double tolerance_;
   Selection& selection_;
+  Leaves leaves_;
 };
 
 }  // namespace
 
-void select_samples(const HeightGrid& samples, double tolerance, Selection& selection) {
+Leaves select_samples(const HeightGrid& samples, double tolerance, Selection& selection) {
   const GridRect& w = selection.window;
   Hierarchy hierarchy(samples, tolerance, selection);
   // Squares of the window's shorter side in a row, so that a strip does not start from one huge square.
@@ -115,6 +127,7 @@ void select_samples(const HeightGrid& samples, double tolerance, Selection& sele
       hierarchy.refine({p01, p11, p00});
     }
   }
+  return hierarchy.leaves();
 }
 
 void select_on_line(const HeightGrid& samples, double tolerance, LatticePoint a, LatticePoint b,

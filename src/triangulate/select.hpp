@@ -3,6 +3,7 @@
 // hierarchy by newest-vertex bisection (Evans, Kirkpatrick, Townsend 2001), with the true error of each
 // triangle over its samples instead of nested estimates.
 
+#include <cstdint>
 #include <vector>
 
 #include "geometry/lattice.hpp"
@@ -21,10 +22,17 @@ struct Selection {
   }
 };
 
+/// The triangles that the hierarchy ends with, but for those outside the window and those of voids. Areas, in
+/// cells, are powers of two.
+struct Leaves {
+  std::int64_t n = 0;
+  std::int64_t sum_of_log2_areas = 0;
+};
+
 /// Marks the valid samples at which the hierarchy splits a triangle that has a sample farther than the tolerance
 /// from its plane, or voids and valid samples both. The triangles are not conforming and not returned: it is the
 /// samples that count, and the window's corners belong to them without a mark.
-void select_samples(const HeightGrid& samples, double tolerance, Selection& selection);
+Leaves select_samples(const HeightGrid& samples, double tolerance, Selection& selection);
 
 /// Marks on the straight line from sample a to sample b (on one row or column, both included) the samples that
 /// a polyline within the tolerance needs: Douglas and Peucker's rule, which sees the line's own samples only,

@@ -53,6 +53,23 @@ TEST(SelectSamples, TakesMoreForFinerTolerances) {
   }
 }
 
+TEST(SelectSamples, TellsOfTheTrianglesItEndsWith) {
+  const auto leaves = [](const HeightGrid& grid) {
+    Selection selection = nothing_selected(grid.rect);
+    return select_samples(grid, 0.4, selection);
+  };
+  const Leaves of_a_plane = leaves(grid_of(65, 65, [](int x, int y) { return 3.0 * x - 2.0 * y; }));
+  EXPECT_EQ(of_a_plane.n, 2);
+  EXPECT_EQ(of_a_plane.sum_of_log2_areas, 2 * 11);
+  // One sample too high, in the middle of the diagonal: four triangles. Nobody looks beside the square.
+  const Leaves of_a_spike = leaves(grid_of(70, 65, [](int x, int y) { return x == 32 && y == 32 ? 1.0 : 0.0; }));
+  EXPECT_GT(of_a_spike.n, 4);
+  const Leaves of_a_board = leaves(grid_of(65, 65, [](int x, int y) { return (x + y) % 2; }));
+  EXPECT_EQ(of_a_board.n, 2 * 64 * 64);
+  EXPECT_EQ(of_a_board.sum_of_log2_areas, -2 * 64 * 64);
+  EXPECT_EQ(leaves(grid_of(65, 65, [](int, int) { return kVoid; })).n, 0);
+}
+
 // A polyline through the marked samples passes all others within the tolerance, seen from either end the same.
 TEST(SelectOnLine, LeavesNoSampleOutsideTheTolerance) {
   std::mt19937_64 random(173);
