@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "pipeline_fixture.hpp"
@@ -19,7 +20,7 @@ class CountedField : public GridField {
     n_read += rect.area();
     return GridField::read(rect);
   }
-  mutable std::int64_t n_read = 0;
+  mutable std::atomic<std::int64_t> n_read = 0;
 };
 
 double area_of(const HeightGrid& grid, double tolerance) { return typical_area(GridField(grid), tolerance); }
