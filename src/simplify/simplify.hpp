@@ -23,7 +23,7 @@ struct SimplifyOptions {
   Labour labour;
   bool only_unsettled = false;  // start only from vertices that are not settled, and from what changes around them
   ColourOptions colour = {};    // of meshes that have colours
-  // Cells: of the triangles that such a surface has in most places; what keeps the errors of its triangles alike.
+  // Cells: of most triangles of the whole surface. No new star may have far more squared error than these.
   double typical_area = std::numeric_limits<double>::infinity();
 };
 

@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <atomic>
 #include <string>
 
 #include "io/raster_field.hpp"
@@ -32,6 +33,23 @@ inline Outcome run_in(int threads, const HeightField& field, const GridFrame& fr
 inline Outcome run_on(const HeightGrid& grid, const RoundsOptions& options, int threads = 2) {
   return run_in(threads, GridField(grid), GridFrame{}, options);
 }
+
+/// A field that counts what is asked of it.
+class CountedField : public GridField {
+ public:
+  using GridField::GridField;
+  HeightGrid read(const GridRect& rect) const override {
+    ++n_reads_;
+    n_samples_ += rect.area();
+    return GridField::read(rect);
+  }
+  int n_reads() const { return n_reads_; }
+  std::int64_t n_samples() const { return n_samples_; }
+
+ private:
+  mutable std::atomic<int> n_reads_ = 0;
+  mutable std::atomic<std::int64_t> n_samples_ = 0;
+};
 
 /// The sample terrain: 1025 x 1025 samples of mountains.
 inline const RasterField& matterhorn() {

@@ -33,23 +33,6 @@ bool same(const TerrainMesh& a, const TerrainMesh& b) {
   return a.position == b.position && a.height == b.height && a.triangles == b.triangles;
 }
 
-// Counts how often windows are read: the work.
-class CountedField : public HeightField {
- public:
-  explicit CountedField(const HeightGrid& grid) : field_(grid) {}
-  std::int32_t width() const override { return field_.width(); }
-  std::int32_t height() const override { return field_.height(); }
-  HeightGrid read(const GridRect& rect) const override {
-    ++n_reads_;
-    return field_.read(rect);
-  }
-  int n_reads() const { return n_reads_; }
-
- private:
-  GridField field_;
-  mutable std::atomic<int> n_reads_ = 0;
-};
-
 const HeightGrid& terrain() {
   static const HeightGrid grid = [] {
     HeightGrid g = mountains(150, 130, 77);

@@ -234,9 +234,11 @@ double largest_squared_error(const WindowMesh& mesh, const HeightGrid& grid) {
     const LatticePoint q = soup.position[b];
     const LatticePoint r = soup.position[c];
     double sum = 0;
-    for (std::int32_t y = std::min({p.y, q.y, r.y}) / 16; y <= std::max({p.y, q.y, r.y}) / 16; ++y) {
-      for (std::int32_t x = std::min({p.x, q.x, r.x}) / 16; x <= std::max({p.x, q.x, r.x}) / 16; ++x) {
-        const LatticePoint s{16 * x, 16 * y};
+    const auto [top, bottom] = std::minmax({p.y, q.y, r.y});
+    const auto [left, right] = std::minmax({p.x, q.x, r.x});
+    for (std::int32_t y = top / kLatticePerCell; y <= bottom / kLatticePerCell; ++y) {
+      for (std::int32_t x = left / kLatticePerCell; x <= right / kLatticePerCell; ++x) {
+        const LatticePoint s{x * kLatticePerCell, y * kLatticePerCell};
         const auto wa = static_cast<double>(orient(s, q, r));
         const auto wb = static_cast<double>(orient(p, s, r));
         const auto wc = static_cast<double>(orient(p, q, s));
