@@ -86,9 +86,10 @@ class SurfaceSimplifier {
   void run(double target) {
     if (options_.fit && options_.placement == Placement::kOptimal) samples_ = fit_samples(mesh_, values_, options_);
     geometry_ = plane_quadrics(mesh_, !has_combined(), options_.area_weights);
-    push_all();
     n_start_ = n_triangles_;
     target_ = target;
+    if (is_to_be_balanced()) weigh_attributes();
+    push_all();
     if (is_to_be_balanced()) balance_attributes();
     collapse_down_to(target);
     if (static_cast<double>(n_triangles_) > target) {
@@ -114,16 +115,21 @@ class SurfaceSimplifier {
 
   using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
+  double times_fewer() const { return static_cast<double>(n_triangles_) / target_; }
+
+  void weigh_attributes() {
+    usual_weight_ = seen_weight(attribute_weight(mesh_, options_), {mesh_, values_, samples_}, times_fewer());
+    attributes_->set_weight(usual_weight_);
+  }
+
   // A few times on the way to the last triangles: how far places and values will be off is known only then.
   void balance_attributes() {
     for (const double times : {8, 4, 2}) {
-      if (!(static_cast<double>(n_triangles_) > times * target_)) continue;
+      if (!(times_fewer() > times)) continue;
       collapse_down_to(times * target_);
       if (queue_.empty()) return;
       follow_collapses(mesh_, samples_);
-      attributes_->set_weight(balanced_weight(attribute_weight(mesh_, options_),
-                                              errors_of({mesh_, values_, samples_}),
-                                              static_cast<double>(n_triangles_) / target_));
+      attributes_->set_weight(balanced_weight(usual_weight_, errors_of({mesh_, values_, samples_}), times_fewer()));
       push_all();
     }
   }
@@ -373,8 +379,8 @@ class SurfaceSimplifier {
     const std::int32_t kept = gone_vertex(mesh_, h, 1 - end);
     if (history_) history_->push_back(noted_collapse(mesh_, h, end));
     move_wedges(h, collapse, gone);
-    carry_feature(h);
-    if (mesh_.twin[at(h)] != kNone) carry_feature(mesh_.twin[at(h)]);
+    carry_feature(mesh_, h);
+    if (mesh_.twin[at(h)] != kNone) carry_feature(mesh_, mesh_.twin[at(h)]);
     n_triangles_ -= mesh_.is_border_edge(h) ? 1 : 2;
     collapse_edge(mesh_, h, kept);
     mesh_.position[at(kept)] = collapse.position;
@@ -394,17 +400,6 @@ class SurfaceSimplifier {
         if (gone_wedge != kept_wedge) attributes_->unite(kept_wedge, gone_wedge);
       }
       hand_over(mesh_, gone, gone_wedge, kept_wedge);
-    }
-  }
-
-  // The two other sides of the triangle of h become one edge, a line when one of them was.
-  void carry_feature(std::int32_t h) {
-    const std::int32_t a = mesh_.twin[at(Halfedges::next(h))];
-    const std::int32_t b = mesh_.twin[at(Halfedges::previous(h))];
-    const std::uint8_t is_feature =
-        mesh_.is_feature[at(Halfedges::next(h))] | mesh_.is_feature[at(Halfedges::previous(h))];
-    for (const std::int32_t side : {a, b}) {
-      if (side != kNone) mesh_.is_feature[at(side)] = is_feature;
     }
   }
 
@@ -467,7 +462,8 @@ class SurfaceSimplifier {
   LinkCondition link_condition_;
   std::size_t n_triangles_;
   std::size_t n_start_ = 0;
-  double target_ = 0;  // triangles
+  double target_ = 0;        // triangles
+  double usual_weight_ = 0;  // of the attributes
   std::uint64_t n_steps_ = 0;
   bool tries_places_ = false;
   FitSamples samples_;  // empty: no fit

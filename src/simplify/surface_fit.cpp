@@ -283,12 +283,12 @@ void flip(const WalkedSurface& input, const ValuedSurface& valued, SurfaceMesh& 
 }
 
 // So that values count about as much as places do. Of a checkered sphere and torus at 5 and 1 % the half takes up
-// to 2 % off the RMS distance and adds as much to the colours' error. Values that are off by less than kSmall count
-// as if they were off by that: of a smoothly coloured sphere at 1 % the RMS distance is 1.05 times that of geometry
-// alone, not 1.20 times, for 1 % more of the colours' error. 0 where nothing is to be gained.
+// to 2 % off the RMS distance and adds as much to the colours' error. Values that are off by less than
+// kSmallDifference count as if they were off by that: of a smoothly coloured sphere at 1 % the RMS distance is 1.05
+// times that of geometry alone, not 1.20 times, for 1 % more of the colours' error. 0 where nothing is to be
+// gained.
 double weight_of_values(const ValuedSurface& valued, const Fit& fit) {
   constexpr double kOfValues = 3;
-  constexpr double kSmall = 0.03;  // of their range
   constexpr double kEqual = 1e-6;  // no more than rounding
   double weights = 0;
   double off = 0;
@@ -300,7 +300,7 @@ double weight_of_values(const ValuedSurface& valued, const Fit& fit) {
     different += weight * squared_difference(valued, i, place_in(valued.mesh, there));
   });
   if (!(different > kEqual * kEqual * weights)) return 0;
-  return kOfValues * off / std::max(different, kSmall * kSmall * weights);
+  return kOfValues * off / std::max(different, kSmallDifference * kSmallDifference * weights);
 }
 
 }  // namespace

@@ -242,6 +242,14 @@ std::array<Vec<3>, 3> corners_of(const SurfaceMesh& mesh, std::int32_t h) {
   return {place(h), place(Halfedges::next(h)), place(Halfedges::previous(h))};
 }
 
+void carry_feature(SurfaceMesh& mesh, std::int32_t h) {
+  const std::uint8_t is_feature =
+      mesh.is_feature[at(Halfedges::next(h))] | mesh.is_feature[at(Halfedges::previous(h))];
+  for (const std::int32_t side : {Halfedges::next(h), Halfedges::previous(h)}) {
+    if (mesh.twin[at(side)] != kNone) mesh.is_feature[at(mesh.twin[at(side)])] = is_feature;
+  }
+}
+
 double triangle_area(const SurfaceMesh& mesh, std::int32_t h) {
   const Vec<3> n = normal_of(mesh, h);
   return std::sqrt(dot(n, n)) / 2;

@@ -46,6 +46,9 @@ Vec<3> scaled(const SurfaceMesh& mesh, const Vec<3>& p);
 /// The places of the corners of a halfedge's triangle, from its origin on.
 std::array<Vec<3>, 3> corners_of(const SurfaceMesh& mesh, std::int32_t h);
 
+/// The two other sides of the triangle of h are about to become one edge, a line when one of them is.
+void carry_feature(SurfaceMesh& mesh, std::int32_t h);
+
 /// Of the triangle of a halfedge.
 double triangle_area(const SurfaceMesh& mesh, std::int32_t h);
 

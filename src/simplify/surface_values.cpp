@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace tinsmith {
 
@@ -57,6 +58,24 @@ void step_values(const ValuedSurface& surface, const std::vector<std::int32_t>& 
     for (std::size_t c = 0; c < n; ++c) values.values[at(w) * n + c] += pulls[at(w) * n + c] / weights[at(w)];
     put_in_range(values, values.of(w));
   }
+}
+
+// Of the values at a vertex and the mean of its neighbours', summed over the components.
+double squared_difference_around(const ValuedSurface& surface, std::int32_t v) {
+  const SurfaceMesh& mesh = surface.mesh;
+  const std::span<const double> own = surface.values.of(mesh.wedge[at(mesh.out[at(v)])]);
+  double sum = 0;
+  for (std::size_t c = 0; c < own.size(); ++c) {
+    double of_neighbours = 0;
+    int n = 0;
+    for_each_out(mesh, v, [&](std::int32_t h) {
+      of_neighbours += surface.values.of(mesh.wedge[at(Halfedges::next(h))])[c];
+      ++n;
+    });
+    const double off = own[c] - of_neighbours / n;
+    sum += off * off;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -120,6 +139,23 @@ SurfaceErrors errors_of(const ValuedSurface& surface) {
   });
   if (!(weights > 0)) return {};
   return {sums.squared_distance / weights, sums.squared_difference / weights};
+}
+
+// What a linear function between vertices is off by grows with the square of their distance, as long as the values
+// are smooth; where they are not this foresees too much, and the weight is the usual one. Of a
+// smoothly coloured sphere at 20 and 5 % the largest distance would be 1.2 times that of geometry alone, not 1.06
+// and 1.05 times.
+double seen_weight(double usual, const ValuedSurface& input, double times_fewer) {
+  double sum = 0;
+  double n = 0;
+  for (std::size_t v = 0; v < input.samples.has_values.size(); ++v) {
+    if (!input.samples.is_valued(v) || !input.mesh.is_alive(static_cast<std::int32_t>(v))) continue;
+    sum += squared_difference_around(input, static_cast<std::int32_t>(v));
+    ++n;
+  }
+  if (!(n > 0)) return usual;
+  const double foreseen = std::sqrt(sum / n) / 2 * times_fewer;
+  return usual * std::min(1.0, foreseen * foreseen / (kSmallDifference * kSmallDifference));
 }
 
 // As in attribute_weight(), the ratio of the squared errors grows with the cube of the length. The usual weight is

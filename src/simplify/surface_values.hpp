@@ -47,6 +47,13 @@ struct SurfaceErrors {
 };
 SurfaceErrors errors_of(const ValuedSurface& surface);
 
+/// RMS, in the values' range: what is off by less is hardly seen.
+constexpr double kSmallDifference = 0.03;
+
+/// The usual weight, or less where values are so smooth that with so many times fewer triangles they will hardly be
+/// off. The surface is still the input.
+double seen_weight(double usual, const ValuedSurface& input, double times_fewer);
+
 /// The weight that values have in a collapse to so many times fewer triangles than the surface with these errors
 /// has: the usual one, or less where the shape will be off by less.
 double balanced_weight(double usual, const SurfaceErrors& errors, double times_fewer);

@@ -93,6 +93,20 @@ TEST(ErrorsOf, AreDistancesAndDifferencesOfSamplesWithValues) {
   EXPECT_NEAR(errors.squared_difference, 4, 1e-12);
 }
 
+// The middle differs by 0.01 from the mean of its neighbours; of three times fewer triangles a linear function is
+// off by 0.015, half of what counts fully.
+TEST(SeenWeight, FallsWithTheSquareOfWhatSmoothValuesWillBeOff) {
+  Square smooth({1, 2, 3, 4, 2.51}, {});
+  EXPECT_NEAR(seen_weight(1e-3, smooth.valued(), 3), 0.25e-3, 1e-12);
+  EXPECT_NEAR(seen_weight(1e-3, smooth.valued(), 1.5), 0.0625e-3, 1e-12);
+  EXPECT_DOUBLE_EQ(seen_weight(1e-3, smooth.valued(), 6.1), 1e-3);
+}
+
+TEST(SeenWeight, IsTheUsualOneWhereValuesAreRoughAndNoneWhereTheyAreLinear) {
+  EXPECT_DOUBLE_EQ(seen_weight(1e-3, Square({0, 1, 0, 1, 1}, {}).valued(), 2), 1e-3);
+  EXPECT_DOUBLE_EQ(seen_weight(1e-3, Square({0, 1, 1, 0, 0.5}, {}).valued(), 100), 0);
+}
+
 // As rough as the usual weight expects, with four times the triangles: places are off by 1/8 of what they will be.
 TEST(BalancedWeight, IsTheUsualOneWhereTheShapeIsRough) {
   EXPECT_DOUBLE_EQ(balanced_weight(1e-3, {1e-3, 8}, 4), 1e-3);
