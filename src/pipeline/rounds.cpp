@@ -66,13 +66,14 @@ class Run {
         graph_(result.graph),
         store_(result.store),
         surface_(result.surface),
-        typical_area_(typical_area(field, options.tolerance)),
         workload_(field, graph_),
         queue_(graph_, [&](WindowName task) { return note_if_done(task); }) {}
 
   void operator()() {
     tell();  // where an earlier run stopped
     weld_what_is_done();
+    if (is_whole()) return;
+    typical_area_ = typical_area(field_, options_.tolerance);
     start_runners(n_most_);
     group_.wait();
     weld_what_is_done();
@@ -81,6 +82,8 @@ class Run {
   double seconds(int round) const { return seconds_[at(round)]; }
 
  private:
+  bool is_whole() const { return surface_.n_added() == graph_.windows(graph_.last_round()).count(); }
+
   bool note_if_done(WindowName task) {
     if (!store_.is_done(task)) return false;
     workload_.add_done(task);
@@ -176,7 +179,7 @@ class Run {
   const WindowGraph& graph_;
   ChunkStore& store_;
   WeldedSurface& surface_;
-  double typical_area_;
+  double typical_area_ = 0;  // known once there are tasks to do
   Workload workload_;
   WindowQueue queue_;
   tbb::task_group group_;
