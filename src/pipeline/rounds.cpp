@@ -156,8 +156,7 @@ class Run {
   void weld_what_is_done() {
     const std::unique_lock lock(weld_mutex_, std::try_to_lock);
     if (!lock) return;
-    const int last = graph_.last_round();
-    while (surface_.n_added() < graph_.windows(last).count() && store_.is_done({last, surface_.n_added()})) {
+    while (!is_whole() && store_.is_done({graph_.last_round(), surface_.n_added()})) {
       surface_.add_next();
       if (surface_.n_added() % kWindowsBetweenLooks == 0) tell();
     }

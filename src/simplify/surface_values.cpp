@@ -142,14 +142,13 @@ SurfaceErrors errors_of(const ValuedSurface& surface) {
 }
 
 // What a linear function between vertices is off by grows with the square of their distance, as long as the values
-// are smooth; where they are not this foresees too much, and the weight is the usual one. Of a
-// smoothly coloured sphere at 20 and 5 % the largest distance would be 1.2 times that of geometry alone, not 1.06
-// and 1.05 times.
+// are smooth; where they are not this foresees too much, and the weight is the usual one. Of a smoothly coloured
+// sphere at 20 and 5 % the largest distance would be 1.2 times that of geometry alone, not 1.06 and 1.05 times.
 double seen_weight(double usual, const ValuedSurface& input, double times_fewer) {
   double sum = 0;
   double n = 0;
   for (std::size_t v = 0; v < input.samples.has_values.size(); ++v) {
-    if (!input.samples.is_valued(v) || !input.mesh.is_alive(static_cast<std::int32_t>(v))) continue;
+    if (!input.samples.is_valued(v)) continue;
     sum += squared_difference_around(input, static_cast<std::int32_t>(v));
     ++n;
   }

@@ -138,9 +138,8 @@ def _summary(rows):
             "leaves exact, and the geometric mean of those of the largest distance.\n\n| form | colour RMSE | where | RMS "
             "distance | where | largest distance | where | mean |\n|---|---|---|---|---|---|---|---|")
     for form in list(COEFFICIENTS)[1:]:
-        of_form = [row for row in rows if row["form"] == form]
+        of_form = [row for row in rows if row["form"] == form and row["of_rms"] is not None]
         text += f"\n| {form} |"
-        of_form = [row for row in of_form if row["of_rms"] is not None]
         for key in ("of_colour", "of_rms", "of_largest"):
             worst = max(of_form, key=lambda row: row[key])
             text += f" {worst[key]:.2f} | {worst['mesh']}, {worst['colours']}, {worst['share']:g} % |"
