@@ -7,7 +7,7 @@
 namespace tinsmith {
 namespace {
 
-constexpr std::int32_t kUsualWindow = 192;
+constexpr std::int64_t kUsualWindow = 192;
 
 // Blocks that a VRT says it has are often smaller than those of its sources.
 constexpr std::int32_t kLeastStripe = 256;
@@ -55,32 +55,30 @@ std::vector<StripePart> stripes_of(const RasterSource& source, const GridRect& r
   return parts;
 }
 
-std::uint64_t cache_for_row(const RasterSource& source, std::int32_t window, int threads) {
+std::uint64_t cache_for(const RasterSource& source, std::int64_t width, std::int64_t height) {
   const auto bytes = static_cast<std::uint64_t>(GDALGetDataTypeSizeBytes(source.type));
-  // A block may lie in two windows: one being read and the next.
-  return touched((std::int64_t{threads} + 1) * window, source.block_width, source.width) *
-         touched(window, source.block_height, source.height) * bytes;
+  return touched(width, source.block_width, source.width) * touched(height, source.block_height, source.height) *
+         bytes;
 }
 
-std::uint64_t cache_for_row(const std::vector<RasterSource>& sources, std::int32_t window, int threads) {
+std::uint64_t cache_for(const std::vector<RasterSource>& sources, std::int64_t width, std::int64_t height) {
   std::uint64_t most = 0;
-  std::int32_t width = window;
-  std::int32_t height = window;
+  std::int64_t least_width = width;
+  std::int64_t least_height = height;
   for (const RasterSource& source : sources) {
-    most = std::max(most, cache_for_row(source, window, threads));
-    width = std::min(width, source.width);
-    height = std::min(height, source.height);
+    most = std::max(most, cache_for(source, width, height));
+    least_width = std::min<std::int64_t>(least_width, source.width);
+    least_height = std::min<std::int64_t>(least_height, source.height);
   }
-  // The rasters that these windows touch, were all as small as the smallest.
-  const std::int64_t across = (std::int64_t{threads} + 1) * window;
+  // The rasters that a rectangle touches, were all as small as the smallest.
   const std::uint64_t n_touched =
-      touched(across, width, across + 2LL * width) / static_cast<std::uint64_t>(width) *
-      (touched(window, height, window + 2LL * height) / static_cast<std::uint64_t>(height));
+      touched(width, least_width, width + 2 * least_width) / static_cast<std::uint64_t>(least_width) *
+      (touched(height, least_height, height + 2 * least_height) / static_cast<std::uint64_t>(least_height));
   return most * std::min<std::uint64_t>(n_touched, sources.size());
 }
 
 bool is_costly_in_windows(const RasterSource& source) {
-  return cache_for_row(source, kUsualWindow, 1) > kCostlyRow;
+  return cache_for(source, 2 * kUsualWindow, kUsualWindow) > kCostlyRow;
 }
 
 std::optional<std::string> remark_on_blocks(const std::vector<RasterSource>& sources) {

@@ -31,14 +31,13 @@ struct StripePart {
 /// The parts of a rectangle from left to right.
 std::vector<StripePart> stripes_of(const RasterSource& source, const GridRect& rect);
 
-/// The cache in bytes that decodes no block of the raster twice while threads on neighbouring windows of `window`
-/// samples go through a row from left to right.
-std::uint64_t cache_for_row(const RasterSource& source, std::int32_t window, int threads);
+/// The cache in bytes that holds all blocks of the raster under any rectangle of so many samples.
+std::uint64_t cache_for(const RasterSource& source, std::int64_t width, std::int64_t height);
 
 /// The same for several rasters side by side; more than is needed at worst, never more than all of the rasters.
-std::uint64_t cache_for_row(const std::vector<RasterSource>& sources, std::int32_t window, int threads);
+std::uint64_t cache_for(const std::vector<RasterSource>& sources, std::int64_t width, std::int64_t height);
 
-/// Whether such a row needs too much even for one thread: whole-row strips of a wide raster.
+/// Whether two windows side by side need too much: whole-row strips of a wide raster.
 bool is_costly_in_windows(const RasterSource& source);
 
 /// Names the first raster that is, how many others are, and the remedy; none when none is.

@@ -176,8 +176,8 @@ std::optional<std::string> RasterField::remark_on_overlaps() const {
 
 std::uint64_t RasterField::n_unreadable() const { return impl_->inputs.unreadable().paths.size(); }
 
-std::uint64_t RasterField::cache_for_row(std::int32_t window, int threads) const {
-  return tinsmith::cache_for_row(impl_->inputs.sources(), window, threads);
+std::uint64_t RasterField::cache_for(std::int64_t width, std::int64_t height) const {
+  return tinsmith::cache_for(impl_->inputs.sources(), width, height);
 }
 
 HeightGrid RasterField::read(const GridRect& rect) const {

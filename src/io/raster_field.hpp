@@ -43,9 +43,9 @@ class RasterField : public HeightField {
   /// Inputs that were left as voids, wholly or in part, as far as is known from what was read.
   std::uint64_t n_unreadable() const;
 
-  /// The cache in bytes (set_raster_cache) with which no block is decoded twice while threads go through a row of
-  /// windows of `window` samples side by side: little for tiled rasters, all of the row for whole-row strips.
-  std::uint64_t cache_for_row(std::int32_t window, int threads) const;
+  /// The cache in bytes (set_raster_cache) that holds all decoded blocks under any rectangle of so many samples:
+  /// little for tiled rasters, all of the rows for whole-row strips.
+  std::uint64_t cache_for(std::int64_t width, std::int64_t height) const;
 
  private:
   struct Impl;

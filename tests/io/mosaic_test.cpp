@@ -315,7 +315,7 @@ TEST_F(RasterMosaic, OverviewsAndArchivesChangeNoHeight) {
   EXPECT_GE(copies.size(), 2);
 }
 
-TEST_F(RasterMosaic, TheCacheForARowOfWindowsFollowsFromTheBlocks) {
+TEST_F(RasterMosaic, TheCacheForARectangleFollowsFromTheBlocks) {
   CPLStringList creation;
   creation.AddString("SPARSE_OK=TRUE");
   creation.AddString("BLOCKYSIZE=1");
@@ -323,9 +323,11 @@ TEST_F(RasterMosaic, TheCacheForARowOfWindowsFollowsFromTheBlocks) {
                                                                      GDT_Float32, creation.List()));
   const RasterField strips({path("strips.tif")}, {});
   const RasterField tiles({write_sparse(path("tiles.tif"), 300000, 3000, -9999)}, {});
-  EXPECT_GE(strips.cache_for_row(256, 8), 300000ULL * 256 * 4);
-  EXPECT_LE(strips.cache_for_row(256, 8), 300000ULL * 260 * 4) << "threads share it";
-  EXPECT_LE(tiles.cache_for_row(256, 1), 2U << 20);
+  EXPECT_GE(strips.cache_for(9 * 256, 256), 300000ULL * 256 * 4);
+  EXPECT_LE(strips.cache_for(9 * 256, 256), 300000ULL * 260 * 4) << "whole rows are decoded anyway";
+  EXPECT_LE(tiles.cache_for(2 * 256, 256), 2U << 20);
+  EXPECT_GE(tiles.cache_for(300000, 3000), 300000ULL * 3000 * 2);
+  EXPECT_LE(tiles.cache_for(300000, 3000), 300000ULL * 3600 * 2) << "no more than the raster has";
   EXPECT_TRUE(mentions(strips.remarks(), {"strips.tif", "blocks of 300000 x 1", "TILED=YES"}))
       << all_of(strips.remarks());
   EXPECT_FALSE(mentions(tiles.remarks(), {"blocks of"})) << all_of(tiles.remarks());
