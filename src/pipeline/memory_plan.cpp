@@ -27,8 +27,8 @@ std::uint64_t bytes_per_sample(int n_channels) {
 // What decodes each block once, whole rows of windows through: later rounds read a row anew, one and a half rows
 // after the first, and blocks reach into the next row. Generated mountains of 64 million samples, at 100 m and two
 // threads, take half the time of a cache for neighbouring windows, which decodes each block five to six times; half
-// of these rows are as good as nothing. For wider rasters than kMostForRows it is neighbours again: what a run takes
-// must not grow with the raster.
+// of these rows are as good as nothing. For wider rasters than kMostForRows it is neighbours again: what a run
+// takes must not grow with the raster.
 std::uint64_t raster_cache(const RasterField& field, std::int32_t window, int threads, std::uint64_t most) {
   constexpr std::int64_t kRows = 5;
   constexpr std::uint64_t kMostForRows = 64 * kMega;

@@ -48,7 +48,7 @@ class Decoding : public RasterTest {
     CPLStringList creation;
     for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE"}) creation.AddString(option);
     if (is_sparse) creation.AddString("SPARSE_OK=TRUE");
-    const std::string file = path("flat" + std::to_string(width) + ".tif");
+    std::string file = path("flat" + std::to_string(width) + ".tif");
     const std::unique_ptr<GDALDataset> raster(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
         file.c_str(), width, height, 1, GDT_Float32, creation.List()));
     if (!is_sparse) EXPECT_EQ(raster->GetRasterBand(1)->Fill(100), CE_None);
