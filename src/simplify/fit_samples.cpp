@@ -6,6 +6,13 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+std::int32_t only_wedge(const SurfaceMesh& mesh, std::int32_t v) {
+  const std::int32_t wedge = mesh.wedge[at(mesh.out[at(v)])];
+  bool is_only = true;
+  for_each_out(mesh, v, [&](std::int32_t h) { is_only = is_only && mesh.wedge[at(h)] == wedge; });
+  return is_only ? wedge : kNone;
+}
+
 }  // namespace
 
 void follow_collapses(const SurfaceMesh& mesh, FitSamples& samples) {
@@ -25,6 +32,8 @@ FitSamples fit_samples(const SurfaceMesh& mesh, const WedgeValues& values, const
   samples.weight.assign(mesh.position.size(), 0);
   samples.vertex.resize(mesh.position.size());
   for (std::size_t v = 0; v < samples.vertex.size(); ++v) samples.vertex[v] = static_cast<std::int32_t>(v);
+  samples.wedge.reserve(mesh.position.size());
+  for (const std::int32_t v : samples.vertex) samples.wedge.push_back(only_wedge(mesh, v));
   // Exact for the squares of linear functions: a twelfth of the triangle at each corner, the rest in the middle.
   for (std::int32_t h = 0; h < mesh.n_halfedges(); h += 3) {
     const auto twelfth = static_cast<float>(triangle_weight(mesh, h, options.area_weights) / 12);

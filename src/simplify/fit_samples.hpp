@@ -16,6 +16,7 @@ struct FitSamples {
   Halfedges triangles;               // over the vertices
   std::vector<float> weight;         // by the areas around it
   std::vector<std::int32_t> vertex;  // near which it lies: of the one that goes in a collapse, the one that stays
+  std::vector<std::int32_t> wedge;   // by vertex: its only one; kNone: a seam passes
   // Of the vertices, n_components each; empty: only places are fitted.
   std::vector<float> values;
   std::vector<std::uint8_t> has_values;  // by vertex: not on lines and seams, where there may be several

@@ -1,7 +1,6 @@
 // Edge collapse on surfaces in space: the paper's steps 1 to 7.
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -9,9 +8,11 @@
 #include <queue>
 #include <span>
 
+#include "simplify/collapse_entry.hpp"
 #include "simplify/plane_quadrics.hpp"
 #include "simplify/simplified_mesh.hpp"
 #include "simplify/surface_attributes.hpp"
+#include "simplify/surface_farthest.hpp"
 #include "simplify/surface_fit.hpp"
 #include "simplify/surface_limits.hpp"
 #include "simplify/surface_link.hpp"
@@ -96,24 +97,30 @@ class SurfaceSimplifier {
       push_refused();
       collapse_down_to(target);
     }
+    if (may_add_vertices()) collapse_down_to(target - 2.0 * static_cast<double>(n_kept_back(n_start_, target)));
     tell(1);
     if (static_cast<double>(n_triangles_) <= target) report_.stopped_by = SimplifyStop::kTriangles;
     geometry_ = {};  // fit needs as much
     queue_ = {};
     // Flips would mend what the half-space test, left out, lets happen.
-    if (report_.collapses > 0 && !samples_.vertex.empty()) fit(mesh_, values_, samples_, options_.half_space);
+    if (report_.collapses > 0 && !samples_.vertex.empty())
+      fit(mesh_, values_, samples_, options_.half_space, n_missing(target));
   }
 
  private:
-  // A cost and a halfedge in one number: the cheapest first, ties by halfedge, and comparing needs no jump.
-  using Entry = std::uint64_t;
-  static Entry entry_of(float cost, std::int32_t h) {
-    return Entry{std::bit_cast<std::uint32_t>(cost)} << 32U | static_cast<std::uint32_t>(h);
-  }
-  static float cost_of(Entry entry) { return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U)); }
-  static std::int32_t halfedge_of(Entry entry) { return static_cast<std::int32_t>(entry & 0xFFFFFFFFU); }
+  using Queue = std::priority_queue<CollapseEntry, std::vector<CollapseEntry>, std::greater<>>;
 
-  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+  // In the fit, where not all is exact.
+  bool may_add_vertices() const {
+    constexpr double kExact = 1e-12;  // of the largest extent
+    const double squared = kExact * kExact * mesh_.extent * mesh_.extent;
+    return options_.half_space && !samples_.vertex.empty() && report_.last_cost > squared;
+  }
+
+  // Vertices up to so many triangles.
+  std::size_t n_missing(double target) const {
+    return static_cast<std::size_t>(std::max(0.0, target - static_cast<double>(n_triangles_)) / 2);
+  }
 
   double times_fewer() const { return static_cast<double>(n_triangles_) / target_; }
 
@@ -142,8 +149,8 @@ class SurfaceSimplifier {
   void collapse_down_to(double target) {
     const auto n_start = static_cast<double>(n_start_);
     while (!queue_.empty() && static_cast<double>(n_triangles_) > target) {
-      const std::int32_t h = halfedge_of(queue_.top());
-      const float cost = cost_of(queue_.top());
+      const std::int32_t h = queue_.top().halfedge();
+      const float cost = queue_.top().cost();
       queue_.pop();
       if (mesh_.origin[at(h)] == kNone || queued_cost_[at(h)] != cost) continue;
       queued_cost_[at(h)] = kNotQueued;
@@ -153,11 +160,11 @@ class SurfaceSimplifier {
   }
 
   void push_all() {
-    std::vector<Entry> entries;
+    std::vector<CollapseEntry> entries;
     entries.reserve(mesh_.origin.size());  // nearly half of it for those that come later
     for (std::int32_t h = 0; h < mesh_.n_halfedges(); ++h) {
       if (mesh_.origin[at(h)] == kNone || h < mesh_.twin[at(h)]) continue;
-      if (note_cost(h)) entries.push_back(entry_of(queued_cost_[at(h)], h));
+      if (note_cost(h)) entries.emplace_back(queued_cost_[at(h)], h);
     }
     queue_ = Queue({}, std::move(entries));  // in linear time
   }
@@ -230,13 +237,11 @@ class SurfaceSimplifier {
 
   Collapse at_end(std::int32_t h, int end, const Quadric<3>& quadric) {
     const std::int32_t v = end == 0 ? mesh_.origin[at(h)] : mesh_.destination(h);
-    Collapse collapse{0, mesh_.position[at(v)], end};
-    collapse.cost = std::max(0.0, quadric.at(collapse.position)) + attribute_cost(h, collapse);
-    return collapse;
+    return at_place(h, mesh_.position[at(v)], quadric, end);
   }
 
-  Collapse at_place(std::int32_t h, const Vec<3>& p, const Quadric<3>& quadric) {
-    Collapse collapse{0, p, -1};
+  Collapse at_place(std::int32_t h, const Vec<3>& p, const Quadric<3>& quadric, int end = -1) {
+    Collapse collapse{0, p, end};
     collapse.cost = std::max(0.0, quadric.at(p)) + attribute_cost(h, collapse);
     return collapse;
   }
@@ -284,7 +289,7 @@ class SurfaceSimplifier {
   // ---- steps 5 and 6: candidates by cost, and one collapse
 
   void push(std::int32_t h) {
-    if (note_cost(h)) queue_.push(entry_of(queued_cost_[at(h)], h));
+    if (note_cost(h)) queue_.emplace(queued_cost_[at(h)], h);
   }
 
   // Makes all earlier entries of the edge void. False when it must not collapse.
@@ -321,7 +326,7 @@ class SurfaceSimplifier {
     const auto least = static_cast<float>(std::max(collapse.cost, least_cost(h, collapse.position, cost)));
     if (least > cost) {
       queued_cost_[at(h)] = least;
-      queue_.push(entry_of(least, h));
+      queue_.emplace(least, h);
       return;
     }
     report_.last_cost = std::max(report_.last_cost, distance);

@@ -78,11 +78,6 @@ struct Quadrilateral {
   }
 };
 
-bool is_seam(const SurfaceMesh& mesh, const Quadrilateral& q) {
-  return mesh.wedge[at(q.h)] != mesh.wedge[at(Halfedges::next(q.g))] ||
-         mesh.wedge[at(q.g)] != mesh.wedge[at(Halfedges::next(q.h))];
-}
-
 bool has_edge(const SurfaceMesh& mesh, std::int32_t v, std::int32_t other) {
   bool has = false;
   for_each_out(mesh, v, [&](std::int32_t h) {
@@ -232,7 +227,7 @@ void flip_nearer(SurfaceMesh& mesh, const SurfaceSamples& samples, const IsAstra
     if (mesh.origin[at(h)] == kNone || h < mesh.twin[at(h)] || mesh.is_border_edge(h) || mesh.is_feature[at(h)])
       continue;
     const Quadrilateral q(mesh, h);
-    if (is_flipped[at(h / 3)] || is_flipped[at(q.g / 3)] || is_seam(mesh, q)) continue;
+    if (is_flipped[at(h / 3)] || is_flipped[at(q.g / 3)] || is_seam(mesh, h)) continue;
     if (!is_convex(q) || !is_nearer(mesh, samples, by_triangle, q) || !keeps_shape(mesh, q)) continue;
     if (q.c == q.d || has_edge(mesh, q.c, q.d) || goes_astray(q, is_astray)) continue;
     flip(mesh, q);

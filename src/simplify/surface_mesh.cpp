@@ -183,12 +183,6 @@ void unite_wedges(SurfaceMesh& mesh) {
   for (std::size_t h = 0; h < mesh.wedge.size(); ++h) mesh.wedge[h] = mesh.wedge[at(mesh.out[at(mesh.origin[h])])];
 }
 
-bool is_seam(const SurfaceMesh& mesh, std::int32_t h) {
-  const std::int32_t g = mesh.twin[at(h)];
-  return mesh.wedge[at(h)] != mesh.wedge[at(Halfedges::next(g))] ||
-         mesh.wedge[at(Halfedges::next(h))] != mesh.wedge[at(g)];
-}
-
 Vec<3> normal_of(const SurfaceMesh& mesh, std::int32_t h) {
   const Vec<3>& a = mesh.position[at(mesh.origin[at(h)])];
   const Vec<3> ab = mesh.position[at(mesh.destination(h))] - a;
@@ -248,6 +242,12 @@ void carry_feature(SurfaceMesh& mesh, std::int32_t h) {
   for (const std::int32_t side : {Halfedges::next(h), Halfedges::previous(h)}) {
     if (mesh.twin[at(side)] != kNone) mesh.is_feature[at(mesh.twin[at(side)])] = is_feature;
   }
+}
+
+bool is_seam(const SurfaceMesh& mesh, std::int32_t h) {
+  const std::int32_t g = mesh.twin[at(h)];
+  return mesh.wedge[at(h)] != mesh.wedge[at(Halfedges::next(g))] ||
+         mesh.wedge[at(Halfedges::next(h))] != mesh.wedge[at(g)];
 }
 
 double triangle_area(const SurfaceMesh& mesh, std::int32_t h) {

@@ -49,6 +49,9 @@ std::array<Vec<3>, 3> corners_of(const SurfaceMesh& mesh, std::int32_t h);
 /// The two other sides of the triangle of h are about to become one edge, a line when one of them is.
 void carry_feature(SurfaceMesh& mesh, std::int32_t h);
 
+/// Whether the two triangles at the edge of h have different wedges there.
+bool is_seam(const SurfaceMesh& mesh, std::int32_t h);
+
 /// Of the triangle of a halfedge.
 double triangle_area(const SurfaceMesh& mesh, std::int32_t h);
 

@@ -1,0 +1,38 @@
+#pragma once
+// The places where a surface and the input are farthest from each other, brought nearer one by one. A fit brings
+// the many that are off a little nearer; the few that are off most need vertices of their own.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "simplify/fit_samples.hpp"
+#include "simplify/surface_attributes.hpp"
+#include "simplify/surface_mesh.hpp"
+
+namespace tinsmith {
+
+/// So many vertices a simplification to that many triangles should keep back for the places that are farthest off
+/// in the end; each brings two triangles.
+std::size_t n_kept_back(std::size_t n_triangles, double target);
+
+/// Where samples lie on a surface.
+struct NearestTriangles {
+  std::vector<std::int32_t>& triangle;  // by sample: the first halfedge of that with the nearest point; kNone: none
+  std::vector<float>& squared;          // by sample: its squared distance
+};
+
+struct AddedVertex {
+  std::int32_t vertex;
+  std::int32_t below;  // the first halfedge of the input's triangle that is nearest
+};
+
+/// Goes from the farthest place to the next, until so many vertices have been added: a sample of the input, or the
+/// middle of an edge, gets a vertex on the input (of those that are gone, with two triangles, at a border one); a
+/// vertex comes a little nearer to the input. Only what brings the place nearer and nothing around it as far off is
+/// done; what can't be, stays. No triangle turns over, nor away from a neighbour; vertices on lines come to lines
+/// only. Samples around have the nearest of the triangles there afterwards. Returns what was added.
+std::vector<AddedVertex> bring_in_farthest(SurfaceMesh& mesh, WedgeValues& values, const FitSamples& samples,
+                                           const NearestTriangles& nearest, std::size_t n_vertices);
+
+}  // namespace tinsmith
