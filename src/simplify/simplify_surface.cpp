@@ -117,9 +117,8 @@ class SurfaceSimplifier {
     return options_.half_space && !samples_.vertex.empty() && report_.last_cost > squared;
   }
 
-  // Vertices up to so many triangles.
   std::size_t n_missing(double target) const {
-    return static_cast<std::size_t>(std::max(0.0, target - static_cast<double>(n_triangles_)) / 2);
+    return static_cast<std::size_t>(std::max(0.0, target - static_cast<double>(n_triangles_)));
   }
 
   double times_fewer() const { return static_cast<double>(n_triangles_) / target_; }

@@ -79,15 +79,14 @@ class Farthest {
     queue_ = std::priority_queue<Place>({}, std::move(places));  // in linear time
   }
 
-  std::vector<AddedVertex> bring_in(std::size_t n_vertices) {
-    constexpr std::size_t kTries = 100;  // for each: on folds much can't be brought nearer
-    std::size_t n_tries = kTries * n_vertices;
-    while (n_tries > 0 && !queue_.empty()) {
+  std::vector<AddedVertex> bring_in(std::size_t n_triangles) {
+    constexpr std::size_t kTries = 50;  // for each: on folds much can't be brought nearer
+    std::size_t n_tries = kTries * n_triangles;
+    n_left_ = n_triangles;
+    while (n_left_ >= 2 && n_tries > 0 && !queue_.empty()) {
       const Place place = queue_.top();
-      const bool is_known = place.squared == known(place);  // or it has changed with another
-      if (is_known && added_.size() == n_vertices) break;
       queue_.pop();
-      if (!is_known) continue;
+      if (place.squared != known(place)) continue;  // it has changed with another
       --n_tries;
       bring_in(place);
     }
@@ -387,6 +386,7 @@ class Farthest {
     set_values(split.halfedge, place, wedge);
     added_.push_back({v, below(place, split.halfedge, 0).halfedge});
     mesh_.position[at(v)] = place;
+    n_left_ -= split.is_on_edge && mesh_.is_border_edge(split.halfedge) ? 1 : 2;
     gone_triangle_ = find_gone_triangle(mesh_, gone_triangle_);
     if (split.is_on_edge)
       split_edge(mesh_, split.halfedge, {v, wedge}, gone_triangle_);
@@ -440,6 +440,7 @@ class Farthest {
   std::vector<std::int32_t> triangles_;  // of the star: a halfedge of each
   std::vector<std::int32_t> around_;
   std::vector<AddedVertex> added_;
+  std::size_t n_left_ = 0;  // triangles
   std::int32_t gone_vertex_ = 0;
   std::int32_t gone_triangle_ = 0;
 };
@@ -453,9 +454,9 @@ std::size_t n_kept_back(std::size_t n_triangles, double target) {
 }
 
 std::vector<AddedVertex> bring_in_farthest(SurfaceMesh& mesh, WedgeValues& values, const FitSamples& samples,
-                                           const NearestTriangles& nearest, std::size_t n_vertices) {
-  if (n_vertices == 0) return {};
-  return Farthest(mesh, values, samples, nearest).bring_in(n_vertices);
+                                           const NearestTriangles& nearest, std::size_t n_triangles) {
+  if (n_triangles < 2) return {};
+  return Farthest(mesh, values, samples, nearest).bring_in(n_triangles);
 }
 
 }  // namespace tinsmith

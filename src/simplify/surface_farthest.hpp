@@ -27,12 +27,12 @@ struct AddedVertex {
   std::int32_t below;  // the first halfedge of the input's triangle that is nearest
 };
 
-/// Goes from the farthest place to the next, until so many vertices have been added: a sample of the input, or the
+/// Goes from the farthest place to the next, until so many triangles have been added: a sample of the input, or the
 /// middle of an edge, gets a vertex on the input (of those that are gone, with two triangles, at a border one); a
 /// vertex comes a little nearer to the input. Only what brings the place nearer and nothing around it as far off is
 /// done; what can't be, stays. No triangle turns over, nor away from a neighbour; vertices on lines come to lines
 /// only. Samples around have the nearest of the triangles there afterwards. Returns what was added.
 std::vector<AddedVertex> bring_in_farthest(SurfaceMesh& mesh, WedgeValues& values, const FitSamples& samples,
-                                           const NearestTriangles& nearest, std::size_t n_vertices);
+                                           const NearestTriangles& nearest, std::size_t n_triangles);
 
 }  // namespace tinsmith

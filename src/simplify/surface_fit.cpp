@@ -304,20 +304,23 @@ double weight_of_values(const ValuedSurface& valued, const Fit& fit) {
   return kOfValues * off / std::max(different, kSmallDifference * kSmallDifference * weights);
 }
 
-void add_vertices(const ValuedSurface& valued, SurfaceMesh& mesh, std::size_t n, Fit& fit) {
-  if (n == 0) return;
+// Up to n triangles with them; returns how many.
+std::size_t add_vertices(const ValuedSurface& valued, SurfaceMesh& mesh, std::size_t n, Fit& fit) {
+  if (n < 2) return 0;
   find_nearest(mesh, valued.samples, 0, fit);
-  const std::vector<AddedVertex> added =
-      bring_in_farthest(mesh, valued.values, valued.samples, {fit.triangle, fit.squared}, n);
-  for (const auto& [v, below] : added) {
+  std::size_t n_added = 0;
+  for (const auto& [v, below] :
+       bring_in_farthest(mesh, valued.values, valued.samples, {fit.triangle, fit.squared}, n)) {
+    n_added += mesh.is_border_vertex(v) ? 1 : 2;
     fit.home[at(v)] = mesh.position[at(v)];
     fit.below[at(v)] = below;
   }
+  return n_added;
 }
 
 }  // namespace
 
-void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_flip, std::size_t n_vertices) {
+void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_flip, std::size_t n_triangles) {
   follow_collapses(mesh, samples);
   Fit fit;
   const ValuedSurface valued{mesh, values, samples};
@@ -336,9 +339,11 @@ void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_f
   }
   const bool is_drawn_by_values = fit.value_weight > 0;
   const int n_rounds = is_drawn_by_values ? kValuedRounds : kRounds;
-  const auto n_first = static_cast<std::size_t>(std::lround(kBeforeLastRound * static_cast<double>(n_vertices)));
   for (int round = 0; round < n_rounds; ++round) {
-    if (round + 1 == n_rounds) add_vertices(valued, mesh, n_first, fit);
+    if (round + 1 == n_rounds) {
+      const long n_vertices = std::lround(kBeforeLastRound * static_cast<double>(n_triangles / 2));
+      n_triangles -= add_vertices(valued, mesh, 2 * static_cast<std::size_t>(n_vertices), fit);
+    }
     if (may_flip) flip(input, valued, mesh, fit);
     find_pulls(valued, fit);
     find_astray(mesh, fit);
@@ -350,7 +355,7 @@ void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_f
   find_astray(mesh, fit);
   find_astray_back(input, mesh, fit);
   draw_back(mesh, fit);
-  add_vertices(valued, mesh, n_vertices - n_first, fit);
+  add_vertices(valued, mesh, n_triangles, fit);
   if (has_values) fit_values(valued, fit.triangle);
 }
 

@@ -12,9 +12,9 @@ namespace tinsmith {
 
 /// Moves interior vertices and changes their values, so that the samples are nearer to the surface, and their
 /// values to those there. Where a sample got farther off than any was before, or a triangle farther from the input,
-/// the vertices are drawn back half of the way. Then up to n_vertices are added, see bring_in_farthest(), and those
-/// that are farthest come nearer, on lines too. Where the vertices may move, edges may flip. No triangle turns
-/// over, nor away from a neighbour; seams stay.
-void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_flip, std::size_t n_vertices);
+/// the vertices are drawn back half of the way. Then vertices are added, with up to n_triangles, see
+/// bring_in_farthest(), and those that are farthest come nearer, on lines too. Where the vertices may move, edges
+/// may flip. No triangle turns over, nor away from a neighbour; seams stay.
+void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_flip, std::size_t n_triangles);
 
 }  // namespace tinsmith
