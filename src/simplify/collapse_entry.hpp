@@ -2,7 +2,6 @@
 // What waits in the queue of collapses.
 
 #include <bit>
-#include <compare>
 #include <cstdint>
 
 namespace tinsmith {
@@ -17,7 +16,7 @@ class CollapseEntry {
   float cost() const { return std::bit_cast<float>(static_cast<std::uint32_t>(bits_ >> 32U)); }
   std::int32_t halfedge() const { return static_cast<std::int32_t>(bits_ & 0xFFFFFFFFU); }
 
-  auto operator<=>(const CollapseEntry&) const = default;
+  friend bool operator>(const CollapseEntry& a, const CollapseEntry& b) { return a.bits_ > b.bits_; }
 
  private:
   std::uint64_t bits_;

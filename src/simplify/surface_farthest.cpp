@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <limits>
 #include <queue>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "simplify/surface_splits.hpp"
@@ -30,7 +30,9 @@ struct Place {
   PlaceKind kind;
   std::int32_t index;
 
-  auto operator<=>(const Place&) const = default;
+  friend bool operator<(const Place& a, const Place& b) {
+    return std::tie(a.squared, a.kind, a.index) < std::tie(b.squared, b.kind, b.index);
+  }
 };
 
 // Of the way to where a new vertex should be: where the surface bends much, all of it would turn a triangle over.

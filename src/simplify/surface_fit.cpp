@@ -22,9 +22,8 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 constexpr int kRounds = 2;
 // Of the vertices that are added, so many come before the last round, whose steps fit them in, the rest in the end.
 constexpr double kBeforeLastRound = 0.7;
-// Rounds, each with flips, where values draw at the vertices too. Of a checkered bunny at 5 and 1 % the RMS
-// distance is 1.06 and 1.08 times that of geometry alone; with two rounds it is 1.09 and 1.13 times, and the
-// colours' error 1 % more.
+// Rounds where values draw at the vertices too. Of a checkered bunny at 1 % the RMS distance is 1.01 times as large
+// with four, and with two the colours' error 1 % more.
 constexpr int kValuedRounds = 6;
 
 constexpr double kTiny = 1e-9;  // of the largest extent: a sample that near lies on the surface
@@ -341,8 +340,9 @@ void fit(SurfaceMesh& mesh, WedgeValues& values, FitSamples& samples, bool may_f
   const int n_rounds = is_drawn_by_values ? kValuedRounds : kRounds;
   for (int round = 0; round < n_rounds; ++round) {
     if (round + 1 == n_rounds) {
-      const long n_vertices = std::lround(kBeforeLastRound * static_cast<double>(n_triangles / 2));
-      n_triangles -= add_vertices(valued, mesh, 2 * static_cast<std::size_t>(n_vertices), fit);
+      const std::size_t n_vertices = n_triangles / 2;
+      const long n_first = std::lround(kBeforeLastRound * static_cast<double>(n_vertices));
+      n_triangles -= add_vertices(valued, mesh, 2 * static_cast<std::size_t>(n_first), fit);
     }
     if (may_flip) flip(input, valued, mesh, fit);
     find_pulls(valued, fit);

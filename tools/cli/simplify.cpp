@@ -50,7 +50,8 @@ options:
                          parts made of small triangles stay
   --no-half-space        let triangles turn over (faster, and wrong; to see what the test prevents)
   --no-fit               leave out the last step of optimal placement, which moves the vertices that are left, and
-                         their values, to where they fit the input's vertices best, and flips edges to that end
+                         their values, to where they fit the input's vertices best, flips edges to that end, and
+                         gives the places that are farthest from the input vertices of their own
   --quadric Q            how shape and values at the vertices make up the cost: separate (a quadric each, as in the
                          paper), combined (one in six dimensions: the shape and the colour, or the normals of a mesh
                          without; other values follow and cost nothing) or gradient (values as linear functions of
