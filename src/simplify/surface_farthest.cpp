@@ -450,7 +450,7 @@ class Farthest {
 }  // namespace
 
 std::size_t n_kept_back(std::size_t n_triangles, double target) {
-  constexpr double kShare = 0.008;
+  constexpr double kShare = 0.01;
   const double n = std::min(target, static_cast<double>(n_triangles) - target);
   return n > 0 ? static_cast<std::size_t>(std::lround(kShare * n / 2)) : 0;
 }

@@ -21,7 +21,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 // A third takes 1 to 3 % off the RMS distance, for a quarter more time of the fit.
 constexpr int kRounds = 2;
 // Of the vertices that are added, so many come before the last round, whose steps fit them in, the rest in the end.
-constexpr double kBeforeLastRound = 0.7;
+constexpr double kBeforeLastRound = 0.9;
 // Rounds where values draw at the vertices too. Of a checkered bunny at 1 % the RMS distance is 1.01 times as large
 // with four, and with two the colours' error 1 % more.
 constexpr int kValuedRounds = 6;

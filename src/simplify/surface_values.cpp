@@ -162,8 +162,8 @@ double seen_weight(double usual, const ValuedSurface& input, double times_fewer)
 // checkered sphere and torus at 1 % the colours' error is 0.87 and 0.88 times that of geometry alone, the RMS
 // distance 1.03 and 0.99 times; with the usual weight 0.89 and 0.82, 1.27 and 1.08 times.
 double balanced_weight(double usual, const SurfaceErrors& errors, double times_fewer) {
-  constexpr double kPower = 3;
-  constexpr double kLeast = 0.1;  // on flat ground too
+  constexpr double kPower = 5;
+  constexpr double kLeast = 0.05;  // on flat ground too
   const double length = std::sqrt(times_fewer);
   const double off = errors.squared_distance * length * length * length;
   if (!(off < usual * errors.squared_difference)) return usual;
