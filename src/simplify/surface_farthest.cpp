@@ -449,10 +449,15 @@ class Farthest {
 
 }  // namespace
 
+// None where half of the triangles are left: the RMS distance would be 1.01 times as large.
 std::size_t n_kept_back(std::size_t n_triangles, double target) {
   constexpr double kShare = 0.01;
-  const double n = std::min(target, static_cast<double>(n_triangles) - target);
-  return n > 0 ? static_cast<std::size_t>(std::lround(kShare * n / 2)) : 0;
+  constexpr double kFullUpTo = 0.25;  // of the triangles
+  constexpr double kNoneFrom = 0.5;
+  if (!(target > 0)) return 0;
+  const double ratio = target / static_cast<double>(n_triangles);
+  const double share = kShare * std::clamp((kNoneFrom - ratio) / (kNoneFrom - kFullUpTo), 0.0, 1.0);
+  return static_cast<std::size_t>(std::lround(share * target / 2));
 }
 
 std::vector<AddedVertex> bring_in_farthest(SurfaceMesh& mesh, WedgeValues& values, const FitSamples& samples,
