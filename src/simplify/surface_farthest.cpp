@@ -83,12 +83,16 @@ class Farthest {
 
   std::vector<AddedVertex> bring_in(std::size_t n_triangles) {
     constexpr std::size_t kTries = 50;  // for each: on folds much can't be brought nearer
+    constexpr std::size_t kMoves = 10;  // of them: on a sphere all vertices lie off, equally far
     std::size_t n_tries = kTries * n_triangles;
+    std::size_t n_moves = kMoves * n_triangles;
     n_left_ = n_triangles;
     while (n_left_ >= 2 && n_tries > 0 && !queue_.empty()) {
       const Place place = queue_.top();
       queue_.pop();
       if (place.squared != known(place)) continue;  // it has changed with another
+      if (place.kind == PlaceKind::kVertex && n_moves == 0) continue;
+      if (place.kind == PlaceKind::kVertex) --n_moves;
       --n_tries;
       bring_in(place);
     }
