@@ -17,8 +17,7 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// n x n vertices, flat but for the given heights; the vertices in `gone` were collapsed into a neighbour each, and
-// `raised` then lifted off the sheet.
+// n x n vertices, flat but for the given heights; the vertices in `gone` were collapsed into a neighbour each.
 struct Case {
   int n;
   std::vector<std::pair<int, double>> heights;
