@@ -50,14 +50,19 @@ struct Sheet {
   }
 };
 
+using Corners = std::array<std::int32_t, 3>;
+
+Corners from_least(Corners t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
 // Each from its least vertex on.
-std::multiset<std::array<std::int32_t, 3>> triangles_of(const SurfaceMesh& mesh) {
-  std::multiset<std::array<std::int32_t, 3>> triangles;
+std::multiset<Corners> triangles_of(const SurfaceMesh& mesh) {
+  std::multiset<Corners> triangles;
   for (std::size_t h = 0; h < mesh.origin.size(); h += 3) {
-    if (mesh.origin[h] == kNone) continue;
-    std::array t{mesh.origin[h], mesh.origin[h + 1], mesh.origin[h + 2]};
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    triangles.insert(t);
+    if (mesh.origin[h] != kNone)
+      triangles.insert(from_least({mesh.origin[h], mesh.origin[h + 1], mesh.origin[h + 2]}));
   }
   return triangles;
 }
@@ -89,46 +94,43 @@ void expect_connected(const SurfaceMesh& mesh) {
   }
 }
 
-std::array<std::int32_t, 3> corners(const SurfaceMesh& mesh, std::int32_t h) {
+Corners corners(const SurfaceMesh& mesh, std::int32_t h) {
   return {mesh.origin[at(h)], mesh.origin[at(Halfedges::next(h))], mesh.origin[at(Halfedges::previous(h))]};
 }
 
-// What becomes of (a, b, c), which begins anywhere.
-void replace(std::multiset<std::array<std::int32_t, 3>>& triangles, const std::array<std::int32_t, 3>& gone,
-             std::vector<std::array<std::int32_t, 3>> come) {
-  const auto sorted = [](std::array<std::int32_t, 3> t) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
-  };
-  EXPECT_EQ(triangles.erase(sorted(gone)), 1U);
-  for (const auto& t : come) triangles.insert(sorted(t));
+void replace(std::multiset<Corners>& triangles, const Corners& gone, const std::vector<Corners>& come) {
+  EXPECT_EQ(triangles.erase(from_least(gone)), 1U);
+  for (const Corners& t : come) triangles.insert(from_least(t));
 }
 
-TEST(SurfaceSplits, ATriangleBecomesThree) {
+// At every halfedge of a sheet of its own: expect(sheet, h, triangles) says what becomes of the triangles.
+template <class Split, class Expect>
+void split_everywhere(Split split, Expect expect) {
   const std::int32_t n = Sheet().mesh.n_halfedges();
   for (std::int32_t h = 0; h < n; ++h) {
     Sheet sheet;
     if (sheet.mesh.origin[at(h)] == kNone) continue;
     SCOPED_TRACE(h);
     auto expected = triangles_of(sheet.mesh);
-    const auto [a, b, c] = corners(sheet.mesh, h);
-    const std::int32_t v = sheet.free.vertex;
-    replace(expected, {a, b, c}, {{a, b, v}, {b, c, v}, {c, a, v}});
-    split_triangle(sheet.mesh, h, sheet.free, find_gone_triangle(sheet.mesh, 0));
+    expect(sheet, h, expected);
+    split(sheet.mesh, h, sheet.free, find_gone_triangle(sheet.mesh, 0));
     EXPECT_EQ(triangles_of(sheet.mesh), expected);
     expect_connected(sheet.mesh);
   }
 }
 
+TEST(SurfaceSplits, ATriangleBecomesThree) {
+  split_everywhere(split_triangle, [](const Sheet& sheet, std::int32_t h, std::multiset<Corners>& expected) {
+    const auto [a, b, c] = corners(sheet.mesh, h);
+    const std::int32_t v = sheet.free.vertex;
+    replace(expected, {a, b, c}, {{a, b, v}, {b, c, v}, {c, a, v}});
+  });
+}
+
 TEST(SurfaceSplits, AnEdgeGetsAVertex) {
-  const std::int32_t n = Sheet().mesh.n_halfedges();
   int n_inner = 0;
   int n_borders = 0;
-  for (std::int32_t h = 0; h < n; ++h) {
-    Sheet sheet;
-    if (sheet.mesh.origin[at(h)] == kNone) continue;
-    SCOPED_TRACE(h);
-    auto expected = triangles_of(sheet.mesh);
+  split_everywhere(split_edge, [&](const Sheet& sheet, std::int32_t h, std::multiset<Corners>& expected) {
     const auto [a, b, c] = corners(sheet.mesh, h);
     const std::int32_t v = sheet.free.vertex;
     replace(expected, {a, b, c}, {{a, v, c}, {v, b, c}});
@@ -138,10 +140,7 @@ TEST(SurfaceSplits, AnEdgeGetsAVertex) {
       const std::int32_t d = corners(sheet.mesh, g)[2];
       replace(expected, {b, a, d}, {{b, v, d}, {v, a, d}});
     }
-    split_edge(sheet.mesh, h, sheet.free, find_gone_triangle(sheet.mesh, 0));
-    EXPECT_EQ(triangles_of(sheet.mesh), expected);
-    expect_connected(sheet.mesh);
-  }
+  });
   EXPECT_EQ(n_borders, 8);
   EXPECT_EQ(n_inner, 10);
 }
