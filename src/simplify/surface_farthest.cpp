@@ -100,17 +100,19 @@ class Farthest {
   }
 
  private:
-  bool bring_in(const Place& place) {
+  void bring_in(const Place& place) {
     switch (place.kind) {
       case PlaceKind::kSample:
-        return seek(place.index) || add_at_sample(place.index);
+        if (!seek(place.index)) add_at_sample(place.index);
+        break;
       case PlaceKind::kTriangle:
       case PlaceKind::kEdge:
-        return add_at_middle(place.index, place.kind == PlaceKind::kEdge);
+        add_at_middle(place.index, place.kind == PlaceKind::kEdge);
+        break;
       case PlaceKind::kVertex:
-        return draw_in(place.index);
+        draw_in(place.index);
+        break;
     }
-    return false;
   }
 
   // ---- places
@@ -270,21 +272,25 @@ class Farthest {
     }
     for_each_out(mesh_, v, [&](std::int32_t h) {
       queue_.push(place_of_triangle(h - h % 3));
-      for (const std::int32_t side : {h, Halfedges::next(h), Halfedges::previous(h)}) {
-        const std::int32_t edge = std::max(side, mesh_.twin[at(side)]);
-        if (is_edge_of_place(edge)) queue_.push(place_of_edge(edge));
-      }
+      weigh_edge(h);
+      weigh_edge(Halfedges::next(h));
     });
     queue_.push(place_of_vertex(v));
+  }
+
+  // A border edge into the vertex, which is none out of it, is on a line: it has no place.
+  void weigh_edge(std::int32_t h) {
+    const std::int32_t edge = std::max(h, mesh_.twin[at(h)]);
+    if (is_edge_of_place(edge)) queue_.push(place_of_edge(edge));
   }
 
   // ---- vertices that come nearer
 
   // A little: the best places for the samples of round ground lie off it.
-  bool draw_in(std::int32_t v) {
+  void draw_in(std::int32_t v) {
     const Vec<3> p = mesh_.position[at(v)];
     const Nearest there = below(p, mesh_.out[at(v)], 0);
-    if (there.halfedge == kNone) return false;
+    if (there.halfedge == kNone) return;
     clear(star_);
     triangles_.clear();
     for_each_out(mesh_, v, [&](std::int32_t h) {
@@ -296,10 +302,8 @@ class Farthest {
       if (!is_inside_half_spaces(star_.sides, place) || turns_more(star_, place)) continue;
       if (is_as_far(place, triangles_, there.squared)) continue;
       mesh_.position[at(v)] = place;
-      settle(v, triangles_);
-      return true;
+      return settle(v, triangles_);
     }
-    return false;
   }
 
   // ---- vertices that are added
@@ -335,27 +339,27 @@ class Farthest {
     return !is_as_far(place, triangles_, squared);
   }
 
-  bool add_at_middle(std::int32_t h, bool is_of_edge) {
+  void add_at_middle(std::int32_t h, bool is_of_edge) {
     const Vec<3> middle = middle_of(h, is_of_edge);
     const Nearest there = below(middle, h, 0);
-    if (there.halfedge == kNone) return false;
+    if (there.halfedge == kNone) return;
     const Split split{h, is_of_edge};
-    return std::any_of(kParts.begin(), kParts.end(), [&](double part) {
+    for (const double part : kParts) {
       const Vec<3> place = along(middle, middle - there.off, part);
-      return is_good(split, place, there.squared) && add(split, place, gone_vertex(kNone));
-    });
+      if (is_good(split, place, there.squared)) return add(split, place, gone_vertex(kNone));
+    }
   }
 
   // In the triangle it is nearest to or on an edge of that, whichever leaves the farthest nearer. One that was on a
   // line comes to a line.
-  bool add_at_sample(std::int32_t i) {
+  void add_at_sample(std::int32_t i) {
     const WalkedSurface surface{mesh_, mesh_.position};
     const Vec<3> off = nearest(surface, samples_.place[at(i)], nearest_.triangle[at(i)], kNone, kInfinity).off;
-    return std::any_of(kParts.begin(), kParts.end(), [&](double part) {
+    for (const double part : kParts) {
       const Vec<3> place = along(samples_.place[at(i)] - off, samples_.place[at(i)], part);
       const Split split = best_split(i, place);
-      return split.halfedge != kNone && add(split, place, gone_vertex(i));
-    });
+      if (split.halfedge != kNone) return add(split, place, gone_vertex(i));
+    }
   }
 
   Split best_split(std::int32_t i, const Vec<3>& place) {
@@ -384,9 +388,9 @@ class Farthest {
     return farthest;
   }
 
-  // That the split is good was asked before. False when there is no vertex to add.
-  bool add(const Split& split, const Vec<3>& place, std::int32_t v) {
-    if (v == kNone) return false;
+  // That the split is good was asked before. Nothing where there is no vertex to add.
+  void add(const Split& split, const Vec<3>& place, std::int32_t v) {
+    if (v == kNone) return;
     lay_star(split);
     const std::int32_t wedge = samples_.wedge[at(v)];
     set_values(split.halfedge, place, wedge);
@@ -399,7 +403,6 @@ class Farthest {
     else
       split_triangle(mesh_, split.halfedge, {v, wedge}, gone_triangle_);
     settle(v, triangles_);
-    return true;
   }
 
   // Those of the triangle there.
