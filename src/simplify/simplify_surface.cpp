@@ -87,17 +87,18 @@ class SurfaceSimplifier {
   void run(double target) {
     if (options_.fit && options_.placement == Placement::kOptimal) samples_ = fit_samples(mesh_, values_, options_);
     geometry_ = plane_quadrics(mesh_, !has_combined(), options_.area_weights);
-    n_start_ = n_triangles_;
+    n_start_ = static_cast<double>(n_triangles_);
     target_ = target;
-    if (is_to_be_balanced()) weigh_attributes();
+    is_balanced_ = is_to_be_balanced();
+    if (is_balanced_) weigh_attributes();
     push_all();
-    if (is_to_be_balanced()) balance_attributes();
+    if (is_balanced_) balance_attributes();
     collapse_down_to(target);
     if (static_cast<double>(n_triangles_) > target) {
       push_refused();
       collapse_down_to(target);
     }
-    if (may_add_vertices()) collapse_down_to(target - 2.0 * static_cast<double>(n_kept_back(n_start_, target)));
+    if (may_add_vertices()) collapse_down_to(target - 2 * n_kept_back(n_start_, target, is_balanced_));
     tell(1);
     if (static_cast<double>(n_triangles_) <= target) report_.stopped_by = SimplifyStop::kTriangles;
     geometry_ = {};  // fit needs as much
@@ -142,11 +143,10 @@ class SurfaceSimplifier {
 
   bool is_to_be_balanced() const {
     return options_.quadric == QuadricForm::kGradient && !options_.attribute_weight && !samples_.values.empty() &&
-           target_ > 0;
+           target_ > 0 && !values_.are_all_equal();
   }
 
   void collapse_down_to(double target) {
-    const auto n_start = static_cast<double>(n_start_);
     while (!queue_.empty() && static_cast<double>(n_triangles_) > target) {
       const std::int32_t h = queue_.top().halfedge();
       const float cost = queue_.top().cost();
@@ -154,7 +154,7 @@ class SurfaceSimplifier {
       if (mesh_.origin[at(h)] == kNone || queued_cost_[at(h)] != cost) continue;
       queued_cost_[at(h)] = kNotQueued;
       try_collapse(h, cost);
-      if (++n_steps_ % 4096 == 0) tell((n_start - static_cast<double>(n_triangles_)) / (n_start - target_));
+      if (++n_steps_ % 4096 == 0) tell((n_start_ - static_cast<double>(n_triangles_)) / (n_start_ - target_));
     }
   }
 
@@ -465,8 +465,9 @@ class SurfaceSimplifier {
   std::vector<std::uint8_t> has_refused_;          // by vertex: an edge of it may be
   LinkCondition link_condition_;
   std::size_t n_triangles_;
-  std::size_t n_start_ = 0;
-  double target_ = 0;        // triangles
+  double n_start_ = 0;  // triangles
+  double target_ = 0;   // triangles
+  bool is_balanced_ = false;
   double usual_weight_ = 0;  // of the attributes
   std::uint64_t n_steps_ = 0;
   bool tries_places_ = false;

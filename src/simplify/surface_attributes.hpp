@@ -2,6 +2,7 @@
 // Colours, normals and scalars in the collapse. Their values live on wedges; how far new values are from the
 // surface's is measured by quadrics of one of three forms.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -30,6 +31,12 @@ struct WedgeValues {
   std::vector<Block> blocks;
   std::size_t n_components = 0;
   std::vector<double> values;  // n_components for each wedge
+
+  /// Whether every wedge has the same.
+  bool are_all_equal() const {
+    const auto n = static_cast<std::ptrdiff_t>(std::min(n_components, values.size()));
+    return std::equal(values.begin() + n, values.end(), values.begin());
+  }
 
   std::span<const double> of(std::int32_t w) const {
     return {values.data() + static_cast<std::size_t>(w) * n_components, n_components};

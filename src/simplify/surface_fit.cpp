@@ -307,13 +307,16 @@ double weight_of_values(const ValuedSurface& valued, const Fit& fit) {
   return kOfValues * off / std::max(different, kSmallDifference * kSmallDifference * weights);
 }
 
-// Up to n triangles with them; returns how many.
+// Up to n triangles with them; returns how many. On a sphere all vertices lie off, equally far: they come nearer
+// only so often. Without the more steps beside values one of 63 coloured results, a sphere, is 1.13 times as far
+// off as without colours.
 std::size_t add_vertices(const ValuedSurface& valued, SurfaceMesh& mesh, std::size_t n, Fit& fit) {
+  const std::size_t n_steps = n * (fit.value_weight > 0 ? 20 : 10);
   if (n < 2) return 0;
   find_nearest(mesh, valued.samples, 0, fit);
   std::size_t n_added = 0;
   for (const auto& [v, below] :
-       bring_in_farthest(mesh, valued.values, valued.samples, {fit.triangle, fit.squared}, n)) {
+       bring_in_farthest(mesh, valued.values, valued.samples, {fit.triangle, fit.squared}, {n, n_steps})) {
     n_added += mesh.is_border_vertex(v) ? 1 : 2;
     fit.home[at(v)] = mesh.position[at(v)];
     fit.below[at(v)] = below;

@@ -105,7 +105,8 @@ TEST(BringInFarthest, GivesTheFarthestSampleAVertex) {
   const std::int32_t top = sheet.vertex(12);
   const int n_before = sheet.n_triangles();
   EXPECT_EQ(std::max_element(sheet.squared.begin(), sheet.squared.end()) - sheet.squared.begin(), top);
-  const auto added = bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, 2);
+  const auto added =
+      bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, {2, 20});
   ASSERT_EQ(added.size(), 1U);
   EXPECT_EQ(added[0].vertex, top);
   EXPECT_EQ(sheet.mesh.position[at(top)], sheet.samples.place[at(top)]);
@@ -120,7 +121,8 @@ TEST(BringInFarthest, GivesABorderAVertexOfTheBorder) {
   Sheet sheet({5, {{2, 0.5}}, {2}});
   const std::int32_t top = sheet.vertex(2);
   const int n_before = sheet.n_triangles();
-  const auto added = bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, 2);
+  const auto added =
+      bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, {2, 20});
   ASSERT_EQ(added.size(), 1U);
   EXPECT_EQ(added[0].vertex, top);
   EXPECT_TRUE(sheet.mesh.is_border_vertex(top));
@@ -133,7 +135,7 @@ TEST(BringInFarthest, DrawsAVertexIn) {
   sheet.mesh.position[at(v)][2] += 0.1;
   sheet.measure();
   const double before = sheet.mesh.position[at(v)][2];
-  bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, 2);
+  bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, {2, 20});
   EXPECT_LT(sheet.mesh.position[at(v)][2] - sheet.samples.place[at(v)][2], 0.5 * 0.1);
   EXPECT_LT(sheet.mesh.position[at(v)][2], before);
 }
@@ -142,8 +144,8 @@ TEST(BringInFarthest, DrawsAVertexIn) {
 TEST(BringInFarthest, AddsNothingToWhatIsNotOff) {
   Sheet sheet({5, {}, {12, 6}});
   const int n_before = sheet.n_triangles();
-  EXPECT_TRUE(
-      bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, 10).empty());
+  EXPECT_TRUE(bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, {10, 100})
+                  .empty());
   EXPECT_EQ(sheet.n_triangles(), n_before);
 }
 
@@ -163,7 +165,8 @@ TEST(BringInFarthest, NothingGoesAsFarAsTheFarthestWas) {
     std::size_t n_added = 0;
     for (int step = 0; step < 4; ++step) {
       n_added +=
-          bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, 4).size();
+          bring_in_farthest(sheet.mesh, sheet.values, sheet.samples, {sheet.triangle, sheet.squared}, {4, 40})
+              .size();
       sheet.measure();
       EXPECT_LE(sheet.farthest(), farthest * 1.0001F);
       farthest = sheet.farthest();
