@@ -11,10 +11,13 @@ tolerances=("${@:4}")
 [ ${#tolerances[@]} -gt 0 ] || tolerances=(2 5 10 20 50)
 require_packages "$build_packages python3"
 
-# Prints the folder of the build of a commit; what was built before is kept.
+commit_of() {
+  git -C "$top" rev-parse --verify --quiet "$1^{commit}" || die "$1: no such commit"
+}
+
+# Prints the folder of the build of a commit, which also has a name; what was built before is kept.
 build_commit() {
-  local commit folder
-  commit=$(git -C "$top" rev-parse --verify --quiet "$1^{commit}") || die "$1: no such commit"
+  local commit=$1 folder
   folder=$build/compare/${commit:0:12}
   if ! [ -d "$folder/tree" ]; then
     # No worktree: git would go on knowing it when the folder is long gone.
@@ -23,13 +26,16 @@ build_commit() {
     git -C "$top" archive "$commit" | tar -x -C "$folder/tree.new"
     mv "$folder/tree.new" "$folder/tree"
   fi
-  say "building $1 (${commit:0:12})"
+  say "building $2 (${commit:0:12})"
   cmake -S "$folder/tree" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTINSMITH_TESTS=OFF >"$folder/log" 2>&1 &&
-    cmake --build "$folder/build" --target tinsmith_cli >>"$folder/log" 2>&1 || die "the build of $1 failed: see $folder/log"
+    cmake --build "$folder/build" --target tinsmith_cli >>"$folder/log" 2>&1 || die "the build of $2 failed: see $folder/log"
   printf '%s\n' "$folder/build"
 }
 
-a=$(build_commit "$1")
-b=$(build_commit "$2")
+# Both before the first build: HEAD may move meanwhile.
+commit_a=$(commit_of "$1")
+commit_b=$(commit_of "$2")
+a=$(build_commit "$commit_a" "$1")
+b=$(build_commit "$commit_b" "$2")
 exec python3 -B "$top/tools/bench/compare.py" "$a/tinsmith" "$b/tinsmith" "$top/data/matterhorn.tif" "$pairs" \
   "${tolerances[@]}"
