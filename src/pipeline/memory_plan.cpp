@@ -28,15 +28,15 @@ std::uint64_t bytes_per_sample(int n_channels) {
 // (input_identity(), typical_area()) lies all over it; else whole rows of windows, as later rounds read a row anew,
 // one and a half rows after the first, and blocks reach into the next row. Generated mountains of 64 million
 // samples, at 100 m and two threads, take half the time of a cache for neighbouring windows, which decodes each
-// block five to six times; half of these rows are as good as nothing. For wider rasters than kMost it is
+// block five to six times; half of these rows are as good as nothing. For wider rasters than kMostForRows it is
 // neighbours again: what a run takes must not grow with the raster.
 std::uint64_t raster_cache(const RasterField& field, std::int32_t window, int threads, std::uint64_t most) {
   constexpr std::int64_t kRows = 5;
-  constexpr std::uint64_t kMost = 64 * kMega;
+  constexpr std::uint64_t kMostForRows = 64 * kMega;
   std::uint64_t wanted = 3 * field.cache_for((std::int64_t{threads} + 1) * window, window);
   for (const std::int64_t rows : {std::int64_t{field.height()}, kRows * window}) {
     const std::uint64_t of_rows = field.cache_for(field.width(), rows);
-    if (of_rows > std::min(most, kMost)) continue;
+    if (of_rows > std::min(most, kMostForRows)) continue;
     wanted = of_rows;
     break;
   }
