@@ -55,5 +55,21 @@ TEST_F(CliInputs, WhatCannotBeReadEndsTheRunUnlessItIsSkipped) {
   EXPECT_NE(skipped.err.find("text.tif"), std::string::npos) << skipped.err;
 }
 
+// The program knows GeoTIFF's driver before all others, this test's process knows all of them.
+TEST_F(CliInputs, WhatLiesBesideAGeoTiffAndOtherFormatsAreRead) {
+  const RasterRecipe placeless{.crs = "", .geotransform = std::nullopt};
+  const std::string tiff = write("dem.tif", placeless);
+  write("dem.aux", {.creation = {"AUX=YES", "DEPENDENT_FILE=dem.tif"}}, "HFA");
+  const Outcome of_tiff = run({"info", tiff});
+  EXPECT_EQ(of_tiff.exit_code, 0) << of_tiff.err;
+  EXPECT_NE(of_tiff.out.find("UTM zone 32N"), std::string::npos) << of_tiff.out;
+  for (const char* driver : {"ENVI", "HFA"}) {
+    const std::string other = write(std::string("dem.") + driver, {}, driver);
+    const Outcome of_other = run({"info", other});
+    EXPECT_EQ(of_other.exit_code, 0) << of_other.err;
+    EXPECT_NE(of_other.out.find("UTM zone 32N"), std::string::npos) << driver << ": " << of_other.out;
+  }
+}
+
 }  // namespace
 }  // namespace tinsmith::test
