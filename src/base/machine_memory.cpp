@@ -1,13 +1,16 @@
 #include "base/machine_memory.hpp"
 
+#include <sys/mman.h>
 #include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace tinsmith {
@@ -69,6 +72,19 @@ void keep_freed_memory() {
   constexpr int kKept = 32 << 20;  // the most that M_MMAP_THRESHOLD takes
   mallopt(M_MMAP_THRESHOLD, kKept);
   mallopt(M_TRIM_THRESHOLD, kKept);
+#endif
+}
+
+// What is freed at the heap's end below the threshold of keep_freed_memory() stays the heap's, marked as it is.
+void begin_heap_with_huge_pages() {
+#if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
+  constexpr std::size_t kHugePage = 2 << 20;
+  std::size_t room = 30 << 20;
+  void* const heap = std::malloc(room);
+  void* first = heap;
+  if (std::align(kHugePage, kHugePage, first, room) != nullptr)
+    madvise(first, room / kHugePage * kHugePage, MADV_HUGEPAGE);
+  std::free(heap);
 #endif
 }
 

@@ -16,6 +16,11 @@ std::uint64_t resident_memory();
 /// system hands out anew fall from 33 300 to 9 600 and the time to 0.92, at 10 m to 0.97; the peak stays.
 void keep_freed_memory();
 
+/// Asks the system for pages of 2 MiB for the first 30 MiB of the heap, more than small rasters take; to be called
+/// after keep_freed_memory(), before much is allocated. On a virtual machine that is slow to hand out pages, 1
+/// million samples at 5.4 m fault 6 600 to 2 600 pages and take 0.92 of the time; 0.89 on two threads.
+void begin_heap_with_huge_pages();
+
 /// Gives the system back what was freed and is kept for later; where the C library can't, nothing happens.
 void return_free_memory();
 

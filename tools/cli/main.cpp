@@ -73,6 +73,7 @@ const char* way_to_less_memory(const std::string& verb) {
 
 int run_program(int argc, char** argv) {
   keep_freed_memory();
+  begin_heap_with_huge_pages();
   CLI::App program("", "tinsmith");
   set_manual(program, kManual);
   program.set_version_flag("--version", std::string("tinsmith ") + version());
