@@ -17,13 +17,21 @@ the same turn, whole process / own. Errors are in metres, measured by `tinsmith 
 """
 
 OTHERS = """\
-The sample terrain is in RESULTS.md, other terrain in [TERRAINS.md](TERRAINS.md), surfaces in
-[surface/RESULTS.md](surface/RESULTS.md), with colours in [surface/COLOURS.md](surface/COLOURS.md).
+The sample terrain is in RESULTS.md, other terrain in [TERRAINS.md](TERRAINS.md), the time per sample from 1 to 64
+million in [SIZES.md](SIZES.md), surfaces in [surface/RESULTS.md](surface/RESULTS.md), with colours in
+[surface/COLOURS.md](surface/COLOURS.md).
 """
 
 VOIDS = """\
 This input has voids. It is measured as it is beside the peers that know voids, and as {name}_filled, its voids filled by
 inverse distance, beside all. Its exact outline takes vertices at every tolerance, so that few may be out of reach.
+"""
+
+
+PER_SAMPLE = """\
+Microseconds for a sample of generated terrain, of the fastest run: of the whole process, and in brackets as the tool
+itself counts them (tinsmith: from its first line to its last, reading and writing included; delatin: without them).
+tinsmith's process takes longer than it counts by the loading of GDAL and the hundred libraries that GDAL needs.
 """
 
 
@@ -131,6 +139,37 @@ def time_table(cases, one, two):
     head = ["tolerance", "1 thread: wall (CPU) s", "MiB", "2 threads: wall (CPU) s", "MiB", "1 : 2",
             "million samples / s", "delatin: wall (CPU) s", "MiB", "own s", "ratio"]
     return table(head, [time_row(case, one, two) for case in cases])
+
+
+def per_sample_cells(cases, tool):
+    """Of one tool at one tolerance, sizes from left to right, then the largest over the smallest."""
+    cells, wholes, owns = [], [], []
+    for case in cases:
+        runs = whole(case, tool)
+        if not runs:
+            cells.append(why_missing(case, tool))
+            continue
+        micro = 1e6 / (case["size"][0] * case["size"][1])
+        wholes.append(min(run["wall"] for run in runs) * micro)
+        owns.append(min(map(own_seconds, runs)) * micro)
+        cells.append(f"{wholes[-1]:.3f} ({owns[-1]:.3f})")
+    spread = f"{max(wholes) / min(wholes):.2f} ({max(owns) / min(owns):.2f})" if len(wholes) > 1 else "-"
+    return cells + [f"**{spread}**"]
+
+
+def per_sample_section(cases, one, two):
+    """How the time grows with the size, where generated terrain of several sizes was measured."""
+    generated = [case for case in cases if case["input"].startswith("fractal_")]
+    sizes = dict.fromkeys(tuple(case["size"]) for case in generated)
+    if len(sizes) < 2:
+        return ""
+    rows = []
+    for tolerance in dict.fromkeys(case["tolerance"] for case in generated):
+        at_tolerance = [case for case in generated if case["tolerance"] == tolerance]
+        if len(at_tolerance) == len(sizes):
+            rows += [[f"{tolerance:g} m", tool, *per_sample_cells(at_tolerance, tool)] for tool in (one, two, "delatin")]
+    head = ["tolerance", "tool", *(f"{width} x {height}" for width, height in sizes), "largest : smallest"]
+    return "\n## Time per sample\n\n" + PER_SAMPLE + "\n" + table(head, rows)
 
 
 def faults(judged):
@@ -257,7 +296,7 @@ def input_section(cases, one, two, leader):
 
 
 def markdown(document, efforts):
-    """RESULTS.md: for each effort a summary and, for each input, the three tables."""
+    """RESULTS.md: for each effort a summary, the time per sample and, for each input, the three tables."""
     all_tools = tools.tinsmith_tools(efforts) + tools.TOLERANCE_DRIVEN + tools.COUNT_DRIVEN
     text = "# Measured beside the peers\n\n" + OTHERS + "\n" + made_by(document, all_tools) + "\n" + KNOWN
     cases = document["cases"]
@@ -265,7 +304,7 @@ def markdown(document, efforts):
     for effort in efforts:
         one, two = (tool.name for tool in tools.tinsmith_tools([effort]))
         text += f"\n# Effort {effort}\n\n" if len(efforts) > 1 else "\n"
-        text += summary(cases, one, two, leader)
+        text += summary(cases, one, two, leader) + per_sample_section(cases, one, two)
         for name in dict.fromkeys(case["input"] for case in cases):
             text += input_section([case for case in cases if case["input"] == name], one, two, leader)
     return text
