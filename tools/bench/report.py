@@ -167,7 +167,8 @@ def per_sample_section(cases, one, two):
     for tolerance in dict.fromkeys(case["tolerance"] for case in generated):
         at_tolerance = [case for case in generated if case["tolerance"] == tolerance]
         if len(at_tolerance) == len(sizes):
-            rows += [[f"{tolerance:g} m", tool, *per_sample_cells(at_tolerance, tool)] for tool in (one, two, "delatin")]
+            for tool in (one, two, "delatin"):
+                rows.append([f"{tolerance:g} m", tool, *per_sample_cells(at_tolerance, tool)])
     head = ["tolerance", "tool", *(f"{width} x {height}" for width, height in sizes), "largest : smallest"]
     return "\n## Time per sample\n\n" + PER_SAMPLE + "\n" + table(head, rows)
 
