@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -10,6 +11,13 @@
 namespace tinsmith {
 namespace {
 
+TEST(MachineMemory, IsAtLeastWhatThisTestNeeds) {
+  EXPECT_GT(machine_memory(), std::uint64_t{1} << 26);
+  EXPECT_LT(machine_memory(), std::uint64_t{1} << 50);
+}
+
+// Sanitizers have a heap of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 struct Mapping {
   bool is_there = false;
   bool asks_for_huge_pages = false;
@@ -35,11 +43,6 @@ Mapping mapping_of(const void* address) {
   return mapping;
 }
 
-TEST(MachineMemory, IsAtLeastWhatThisTestNeeds) {
-  EXPECT_GT(machine_memory(), std::uint64_t{1} << 26);
-  EXPECT_LT(machine_memory(), std::uint64_t{1} << 50);
-}
-
 TEST(MachineMemory, BeginsTheHeapWithHugePagesWithoutTakingThem) {
   if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled")) return;  // the system has none
   const std::uint64_t before = resident_memory();
@@ -51,6 +54,7 @@ TEST(MachineMemory, BeginsTheHeapWithHugePagesWithoutTakingThem) {
   ASSERT_TRUE(mapping.is_there);
   EXPECT_TRUE(mapping.asks_for_huge_pages);
 }
+#endif
 
 }  // namespace
 }  // namespace tinsmith

@@ -30,7 +30,7 @@ inverse distance, beside all. Its exact outline takes vertices at every toleranc
 
 PER_SAMPLE = """\
 Microseconds for a sample of generated terrain, of the fastest run: of the whole process, and in brackets as the tool
-itself counts them (tinsmith: from its first line to its last, reading and writing included; delatin: without them).
+itself counts them (tinsmith: once its libraries are loaded, reading and writing included; delatin: without them).
 tinsmith's process takes longer than it counts by the loading of GDAL and the hundred libraries that GDAL needs.
 """
 
