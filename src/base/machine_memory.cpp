@@ -16,6 +16,7 @@
 namespace tinsmith {
 namespace {
 
+constexpr int kKept = 32 << 20;  // the most that M_MMAP_THRESHOLD takes
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 /// What a file of the control group says; no limit when it says "max", nothing, or is not there.
@@ -69,7 +70,6 @@ std::uint64_t resident_memory() {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int kKept = 32 << 20;  // the most that M_MMAP_THRESHOLD takes
   mallopt(M_MMAP_THRESHOLD, kKept);
   mallopt(M_TRIM_THRESHOLD, kKept);
 #endif
@@ -79,7 +79,7 @@ void keep_freed_memory() {
 void begin_heap_with_huge_pages() {
 #if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
   constexpr std::size_t kHugePage = 2 << 20;
-  std::size_t room = 30 << 20;
+  std::size_t room = kKept - kHugePage;
   void* const heap = std::malloc(room);
   void* first = heap;
   if (std::align(kHugePage, kHugePage, first, room) != nullptr)
