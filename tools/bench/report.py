@@ -29,8 +29,8 @@ inverse distance, beside all. Its exact outline takes vertices at every toleranc
 
 
 PER_SAMPLE = """\
-Microseconds for a sample of generated terrain, of the fastest run: of the whole process, and in brackets as the tool
-itself counts them (tinsmith: once its libraries are loaded, reading and writing included; delatin: without them).
+Microseconds for a sample of generated terrain, medians: of the whole process, and in brackets as the tool itself
+counts them (tinsmith: once its libraries are loaded, reading and writing included; delatin: without them).
 tinsmith's process takes longer than it counts by the loading of GDAL and the hundred libraries that GDAL needs.
 """
 
@@ -150,8 +150,8 @@ def per_sample_cells(cases, tool):
             cells.append(why_missing(case, tool))
             continue
         micro = 1e6 / (case["size"][0] * case["size"][1])
-        wholes.append(min(run["wall"] for run in runs) * micro)
-        owns.append(min(map(own_seconds, runs)) * micro)
+        wholes.append(median(runs, "wall") * micro)
+        owns.append(statistics.median(map(own_seconds, runs)) * micro)
         cells.append(f"{wholes[-1]:.3f} ({owns[-1]:.3f})")
     spread = f"{max(wholes) / min(wholes):.2f} ({max(owns) / min(owns):.2f})" if len(wholes) > 1 else "-"
     return cells + [f"**{spread}**"]
