@@ -21,7 +21,7 @@ struct Course {
 struct Killings {
   int n = 0;
   int n_said = 0;   // runs that were asked to end and said how to go on
-  int n_whole = 0;  // runs that came to their end; after the last kill, and when a kill came too late
+  int n_whole = 0;  // runs that did all of their work: the last one, and those whose kill came too late
   std::map<std::string, int> by_stage;
   double cpu_seconds = 0;  // of all runs without their starts
   double peak_bytes = 0;   // the most of any
@@ -70,11 +70,12 @@ class KillTest : public FaultsTest {
         const double bytes = 0.8 * share(random) * course.output_bytes;
         wait_until(running, [&] { return bytes_written(running.process) > bytes; });
       }
-      end(running, signal, killings);
+      end(running, signal, course, killings);
     }
     const Outcome last = run(words);
     EXPECT_EQ(last.exit_code, 0) << last.err;
     add(last, killings);
+    ++killings.n_whole;
     killings.cpu_seconds -= (killings.n + killings.n_whole) * start_up.cpu_seconds;
     return killings;
   }
@@ -117,14 +118,20 @@ class KillTest : public FaultsTest {
     return {0, seconds_since(start_time), 0, outcome.cpu_seconds, outcome.peak_bytes};
   }
 
-  void end(const Running& running, int signal, Killings& killings) const {
+  void end(const Running& running, int signal, const Course& course, Killings& killings) const {
     const bool was_writing = bytes_written(running.process) > 0;
     const auto start_time = Clock::now();
     kill(running.process, signal);
     const Outcome outcome = wait_for(running);
     killings.longest_end = std::max(killings.longest_end, seconds_since(start_time));
     add(outcome, killings);
-    if (outcome.exit_code == 0) return;  // too late
+    if (fs::exists(output())) {  // too late, even if the program was still about to tidy up and exit
+      ++killings.n_whole;
+      EXPECT_EQ(static_cast<double>(fs::file_size(output())), course.output_bytes);
+      fs::remove(output());
+      fs::remove_all(work());
+      return;
+    }
     ++killings.n;
     ++killings.by_stage[was_writing ? "write" : stage_reached()];
     if (signal == SIGKILL) return;
@@ -135,7 +142,6 @@ class KillTest : public FaultsTest {
 
   static void add(const Outcome& outcome, Killings& killings) {
     killings.cpu_seconds += outcome.cpu_seconds;
-    if (outcome.exit_code == 0) ++killings.n_whole;
     killings.peak_bytes = std::max(killings.peak_bytes, outcome.peak_bytes);
   }
 

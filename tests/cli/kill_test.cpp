@@ -17,13 +17,15 @@ class Killed : public KillTest {};
 // A short version of tests/soak.
 TEST_F(Killed, AtAnyMomentGoesOnToTheSameBytesWithLittleMoreWork) {
   const Words words = mountains_to(output());
-  const Course course = follow(words);
+  Course course = follow(words);
   const std::string bytes = take_output();
   std::mt19937 random(kSeed);
   Killings killings = kill_again_and_again(words, course, SIGKILL, 12, 4, random);
-  print(killings, course);
   EXPECT_TRUE(text_of(output()) == bytes);
   EXPECT_EQ(files(), (std::vector<std::string>{"out.ply"}));
+  // A machine's speed may change meanwhile: undisturbed work is measured before and after.
+  course.cpu_seconds = (course.cpu_seconds + follow(words).cpu_seconds) / 2;
+  print(killings, course);
   EXPECT_GE(killings.n, 8) << "the seed is " << kSeed;
   EXPECT_GE(killings.by_stage["write"], 1);
   EXPECT_LE(work_ratio(killings, course), 1.3);
