@@ -7,9 +7,9 @@ tinsmith are kept apart from those of another.
 """
 
 import argparse
+import concurrent.futures
 import hashlib
 import json
-import os
 import pathlib
 import shlex
 import signal
@@ -23,25 +23,36 @@ import report
 import tools
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+SMALL = 2_000_000  # samples: a raster of which a run takes seconds
+TWO_FIT = 10_000_000  # samples: 11 GB for VTK's quadric decimation, the most that a peer takes
 JUDGED = ["samples", "uncovered", "vertices", "triangles", "max_error", "rmse", "p99_error", "folded",
           "non_manifold_edges", "t_junctions", "bytes"]
 
 
 class Patience:
-    """Which of the tools that decimate the full mesh are not worth starting: what they take grows with the triangles
-    that they remove, so one that ran into the limit is not run where it has as many to remove, or more."""
+    """Which runs are not worth starting after one that ran into the limit. What a tool that decimates the full mesh
+    takes grows with the triangles that it removes, of any raster; what one that inserts takes, with fineness."""
 
     def __init__(self, limit):
         self.limit = limit
-        self.hopeless = {}  # by tool: the triangles to remove, and where that was
+        self.hopeless = {}
 
-    def why_not(self, tool, n_removed):
-        n_hopeless, where = self.hopeless.get(tool.name, (None, None))
-        return f"not run: over {self.limit:g} s {where}" if n_hopeless and n_removed >= n_hopeless else None
+    @staticmethod
+    def effort(tool, case):
+        """What the time grows with, and among which runs."""
+        if tool.decimates:
+            return case["n_removed"], tool.name
+        return -case["tolerance"], (tool.name, case["input"])
 
-    def learn(self, tool, case, n_removed, run):
-        if tool.decimates and run.get("limit_hit") and not self.why_not(tool, n_removed):
-            self.hopeless[tool.name] = n_removed, f"for {case['input']}, {case['tolerance']:g} m"
+    def why_not(self, tool, case):
+        effort, among = self.effort(tool, case)
+        least, where = self.hopeless.get(among, (None, None))
+        return f"not run: over {self.limit:g} s {where}" if where and effort >= least else None
+
+    def learn(self, tool, case, run):
+        if run.get("limit_hit"):
+            effort, among = self.effort(tool, case)
+            self.hopeless[among] = effort, f"for {case['input']}, {case['tolerance']:g} m"
 
 
 class Bench:
@@ -56,7 +67,6 @@ class Bench:
         identity = hashlib.sha256(self.binary.read_bytes()).hexdigest()[:12]
         self.runs = build / "runs" / identity
         self.runs.mkdir(parents=True, exist_ok=True)
-        self.mesh = self.runs / f"mesh-{os.getpid()}.ply"
 
     def grid(self, name, rasters):
         """The samples as the peers read them."""
@@ -68,55 +78,68 @@ class Bench:
             unfinished.rename(path)
         return path
 
-    def command(self, tool, case, n_triangles):
-        words = {"build": self.build, "bench": TOP / "tools/bench", "grid": case["grid"], "out": self.mesh,
-                 "m": f"{case['tolerance']:g}", "n": n_triangles}
+    def command(self, tool, case, mesh):
+        words = {"build": self.build, "bench": TOP / "tools/bench", "grid": case["grid"], "out": mesh,
+                 "m": f"{case['tolerance']:g}", "n": case.get("n_triangles")}
         filled = []
         for word in tool.command.split():
             filled += [str(r) for r in case["rasters"]] if word == "{input}" else [word.format(**words)]
         return filled
 
-    def judge(self, case):
+    def judge(self, case, mesh):
         """What `tinsmith verify` says of the mesh; that it is not valid (exit code 1) is a result like others."""
-        command = [self.binary, "verify", *case["rasters"], self.mesh, "--json", "-"]
+        command = [self.binary, "verify", *case["rasters"], mesh, "--json", "-"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode not in (0, 1):
             return {"judge_failed": done.stderr.strip()}
         certificate = json.loads(done.stdout)
         return {key: certificate[key] for key in JUDGED}
 
-    def once(self, tool, case, repetition, n_triangles=0):
-        """One run, or what an earlier one left: its costs and, the first time, the judge's verdict."""
+    def once(self, tool, case, repetition=0):
+        """One run, or what an earlier one left, or why there is none."""
+        reason = self.patience.why_not(tool, case)
+        run = {"failed": reason} if reason else self._found_or_measured(tool, case, repetition)
+        self.patience.learn(tool, case, run)
+        return run
+
+    def _found_or_measured(self, tool, case, repetition):
         name = f"{case['input']}.{case['tolerance']:g}m.{tool.name.replace(', ', '-').replace(' ', '-')}.{repetition}"
         path = self.runs / f"{name}.json"
         if path.exists():
             return json.loads(path.read_text())
         if self.runs_nothing:
             return {"failed": report.NOT_RUN}
-        self.mesh.unlink(missing_ok=True)
-        result = measure.run(self.command(tool, case, n_triangles), self.limit)
+        mesh = path.with_suffix(".ply")
+        try:
+            result = self._measured(tool, case, repetition, mesh)
+        finally:
+            mesh.unlink(missing_ok=True)
+        unfinished = path.with_suffix(".new")
+        unfinished.write_text(json.dumps(result, indent=1))
+        unfinished.rename(path)
+        say(name, result)
+        return result
+
+    def _measured(self, tool, case, repetition, mesh):
+        """Its costs and, the first time, the judge's verdict."""
+        result = measure.run(self.command(tool, case, mesh), self.limit)
         said = result.pop("stdout")
         wrong = result.pop("stderr").strip().splitlines()
         if result["exit_code"] == 0:
             own = json.loads(said.splitlines()[-1])
             result["own"] = {key: value for key, value in own.items() if key not in ("input", "output")}
-            if self.mesh.exists():
+            if mesh.exists():
                 # In pieces: the peak of a process is never below its starter's.
-                with open(self.mesh, "rb") as file:
+                with open(mesh, "rb") as file:
                     result["sha256"] = hashlib.file_digest(file, "sha256").hexdigest()
                 if repetition == 0:
-                    result["judged"] = self.judge(case)
+                    result["judged"] = self.judge(case, mesh)
         elif result["limit_hit"]:
             result["failed"] = f"over {self.limit:g} s"
         elif result["exit_code"] == -signal.SIGKILL:
             result["failed"] = "out of memory"  # no one else sends it
         else:
             result["failed"] = (wrong or ["no message"])[-1]
-        self.mesh.unlink(missing_ok=True)
-        unfinished = path.with_suffix(".new")
-        unfinished.write_text(json.dumps(result, indent=1))
-        unfinished.rename(path)
-        say(name, result)
         return result
 
 
@@ -128,6 +151,11 @@ def say(name, result):
           flush=True)
 
 
+def n_samples(case):
+    width, height = case["size"]
+    return width * height
+
+
 def suits(tool, case):
     """Only what is given the same raster is compared: a tool that knows no voids can't take one that has some. And
     martini takes squares of 2^k + 1 samples only."""
@@ -137,20 +165,8 @@ def suits(tool, case):
     return tool.name != "martini" or (width == height and (width - 1) & (width - 2) == 0)
 
 
-def measure_count_driven(bench, case, options, judged):
-    """Each at the count of triangles that `judged` has, once."""
-    results = {}
-    n_removed = 2 * judged["samples"] - judged["triangles"]
-    for tool in (t for t in tools.COUNT_DRIVEN if t.name in options.peers and suits(t, case)):
-        reason = bench.patience.why_not(tool, n_removed)
-        run = {"failed": reason} if reason else bench.once(tool, case, 0, judged["triangles"])
-        bench.patience.learn(tool, case, n_removed, run)
-        results[tool.name] = [run]
-    return results
-
-
-def measure_case(bench, case, options, n_runs):
-    """All tools at one tolerance: tinsmith and the tolerance-driven peers by turns, then the count-driven ones."""
+def measure_by_turns(bench, case, options, n_runs):
+    """tinsmith and the tolerance-driven peers at one tolerance, with nothing beside them."""
     ours = tools.tinsmith_tools(options.efforts)
     peers = [t for t in tools.TOLERANCE_DRIVEN if t.name in options.peers and suits(t, case)]
     results = {tool.name: [] for tool in ours + peers}
@@ -159,12 +175,28 @@ def measure_case(bench, case, options, n_runs):
             earlier = results[tool.name]
             if not (earlier and "failed" in earlier[0]):
                 earlier.append(bench.once(tool, case, repetition))
-    if "delatin" in results and case["size"][0] * case["size"][1] < 5e6:
-        results[tools.CROSS_CHECK.name] = [bench.once(tools.CROSS_CHECK, case, 0)]
-    leader = results[ours[0].name][0]
-    if "judged" in leader and "triangles" in leader["judged"]:
-        results |= measure_count_driven(bench, case, options, leader["judged"])
+    if "delatin" in results and n_samples(case) < SMALL:
+        results[tools.CROSS_CHECK.name] = [bench.once(tools.CROSS_CHECK, case)]
     return results
+
+
+def measure_count_driven(bench, cases, options):
+    """The results of each tool at the counts of triangles that tinsmith needed, once. Each takes one core, so two of
+    them run at a time, where the memory is enough for that. Those that decimate begin with the least to remove, those
+    that insert with the least to insert: what follows on a run over the limit need not be tried."""
+    chosen = [t for t in tools.COUNT_DRIVEN if t.name in options.peers and cases and suits(t, cases[0])]
+
+    def measure_tool(tool):
+        ordered = sorted(cases, key=lambda case: case["tolerance"], reverse=not tool.decimates)
+        return {case["tolerance"]: [bench.once(tool, case)] for case in ordered}
+
+    with concurrent.futures.ThreadPoolExecutor(2 if cases and n_samples(cases[0]) < TWO_FIT else 1) as pool:
+        try:
+            return dict(zip([t.name for t in chosen], pool.map(measure_tool, chosen)))
+        except BaseException:  # interrupted: nothing is left running
+            pool.shutdown(wait=False, cancel_futures=True)
+            measure.end_all()
+            raise
 
 
 def header_of(grid):
@@ -176,15 +208,23 @@ def measure_input(bench, name, options):
     rasters = inputs.files(name, TOP, bench.build, options.data)
     grid = bench.grid(name, rasters)
     header = header_of(grid)
-    size = (header["width"], header["height"])
-    # Five runs for the small ones, where a run is short and its time less sure.
-    n_runs = options.runs or (3 if options.quick else 5 if size[0] * size[1] < 2e6 else 3)
-    cases = []
-    for tolerance in options.tolerances or (inputs.QUICK_TOLERANCES if options.quick else inputs.tolerances(name)):
-        shown = {"input": name, "size": size, "has_voids": header["has_voids"], "tolerance": tolerance}
-        case = {**shown, "rasters": rasters, "grid": grid}
-        cases.append({**shown, "results": measure_case(bench, case, options, n_runs)})
-    return cases
+    about = {"input": name, "size": (header["width"], header["height"]), "has_voids": header["has_voids"]}
+    # More runs for the small ones, where a run is short and its time less sure.
+    n_runs = options.runs[0] if n_samples(about) < SMALL else options.runs[-1]
+    tolerances = options.tolerances or (inputs.QUICK_TOLERANCES if options.quick else inputs.tolerances(name))
+    results, with_counts = {}, []
+    for tolerance in sorted(tolerances, reverse=True):
+        case = {**about, "tolerance": tolerance, "rasters": rasters, "grid": grid}
+        results[tolerance] = measure_by_turns(bench, case, options, n_runs)
+        leader = next(iter(results[tolerance].values()))[0]
+        judged = leader.get("judged", {})
+        if "triangles" in judged:
+            n_triangles = judged["triangles"]
+            with_counts.append({**case, "n_triangles": n_triangles, "n_removed": 2 * judged["samples"] - n_triangles})
+    for tool, by_tolerance in measure_count_driven(bench, with_counts, options).items():
+        for tolerance, runs in by_tolerance.items():
+            results[tolerance][tool] = runs
+    return [{**about, "tolerance": tolerance, "results": results[tolerance]} for tolerance in tolerances]
 
 
 def one_case_a_line(document):
@@ -193,8 +233,10 @@ def one_case_a_line(document):
 
 
 def write_tables(bench, options, cases):
-    loads = [run["load_before"] for case in cases for runs in case["results"].values() for run in runs
-             if "load_before" in run]
+    # Of the runs that had nothing beside them.
+    beside_others = {tool.name for tool in tools.COUNT_DRIVEN}
+    loads = [run["load_before"] for case in cases for tool, runs in case["results"].items() for run in runs
+             if "load_before" in run and tool not in beside_others]
     if not loads:
         raise SystemExit("bench: --tables: none of these was run with this build; leave --tables out to run them")
     document = {"command": "tools/bench/run.sh " + shlex.join(options.words), "machine": tools.machine(),
@@ -213,6 +255,10 @@ def numbers(text):
     return [float(word) for word in text.split(",")]
 
 
+def counts(text):
+    return [int(word) for word in text.split(",")]
+
+
 def command_line(arguments):
     """As it is shown: without run.sh's own option, and no path of this machine."""
     names = {"--build": "DIR", "--data": "DIR", "--out": "FILE.md"}
@@ -222,13 +268,14 @@ def command_line(arguments):
 def parse(arguments):
     parser = argparse.ArgumentParser(prog="tools/bench/run.sh", description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--quick", action="store_true", help="matterhorn only, at 2,5,10,20,50 m, three runs of each")
+    parser.add_argument("--quick", action="store_true", help="matterhorn only, at 2,5,10,20,50 m")
     parser.add_argument("--inputs", type=words, metavar="A,B", help="default: all there are")
     parser.add_argument("--data", type=pathlib.Path, metavar="DIR", help="real terrain; without it, none is measured")
     parser.add_argument("--tolerances", type=numbers, metavar="M,M", help="metres; default: tolerances.json")
     parser.add_argument("--peers", type=words, metavar="A,B", default=tools.PEERS, help=", ".join(tools.PEERS))
     parser.add_argument("--efforts", type=words, metavar="A,B", default=["default"], help="of tinsmith's --effort")
-    parser.add_argument("--runs", type=int, metavar="N", help="default: 5 up to 2 million samples, 3 above")
+    parser.add_argument("--runs", type=counts, metavar="N[,N]", default=[5, 3],
+                        help="of each, up to 2 million samples and above (default: 5,3)")
     parser.add_argument("--limit", type=float, metavar="S", default=900, help="seconds after which a run is ended")
     parser.add_argument("--out", type=pathlib.Path, metavar="FILE.md", default=TOP / "tools/bench/RESULTS.md",
                         help="the tables, and beside it all there is as FILE.json (default: tools/bench/RESULTS.md)")
@@ -248,15 +295,12 @@ def main(arguments):
     chosen = options.inputs or (["matterhorn"] if options.quick else inputs.names(options.data))
     bench = Bench(options.build, options.limit, options.tables)
     cases = []
-    try:
-        for name in chosen:
-            if options.calibrate:
-                inputs.calibrate(bench.build, name, inputs.files(name, TOP, bench.build, options.data))
-            else:
-                cases += measure_input(bench, name, options)
-                write_tables(bench, options, cases)
-    finally:
-        bench.mesh.unlink(missing_ok=True)
+    for name in chosen:
+        if options.calibrate:
+            inputs.calibrate(bench.build, name, inputs.files(name, TOP, bench.build, options.data))
+        else:
+            cases += measure_input(bench, name, options)
+            write_tables(bench, options, cases)
     if cases:
         print(options.out)
 

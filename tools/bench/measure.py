@@ -16,6 +16,17 @@ def _kill(group):
         pass  # it ended by itself in this moment
 
 
+_running = set()
+_ended = threading.Event()
+
+
+def end_all():
+    """Ends what runs, from another thread: each of these `run` raises InterruptedError, and so does any from now."""
+    _ended.set()
+    for group in list(_running):
+        _kill(group)
+
+
 def run(command, limit):
     """Wall and CPU seconds of the whole process, its peak memory in bytes, its exit code and what it printed.
 
@@ -29,6 +40,9 @@ def run(command, limit):
         timer = threading.Timer(limit, _kill, [child.pid])
         timer.start()
         try:
+            _running.add(child.pid)
+            if _ended.is_set():
+                raise InterruptedError
             pathlib.Path(f"/proc/{child.pid}/oom_score_adj").write_text("1000")
             _, status, usage = os.wait4(child.pid, 0)
         except BaseException:  # interrupted: nothing is left running
@@ -36,6 +50,9 @@ def run(command, limit):
             raise
         finally:
             timer.cancel()
+            _running.discard(child.pid)
+        if _ended.is_set():
+            raise InterruptedError
         wall = time.perf_counter() - start
         child.returncode = os.waitstatus_to_exitcode(status)
         out.seek(0)

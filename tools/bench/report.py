@@ -12,8 +12,10 @@ Wall, CPU and peak memory are those of the whole process, start, reading and wri
 raster and writes PLY with `--no-verify`; the peers read float32 samples from a plain file and write PLY too. "Own" is
 what the peer's own work takes, without reading and writing (for delatin its constructor and `run`; for the
 count-driven ones the simplification alone, without building the full mesh). Times are medians; tinsmith and the
-tolerance-driven peers run by turns, and "ratio" is the median of tinsmith's wall time (2 threads) over delatin's in
-the same turn, whole process / own. Errors are in metres, measured by `tinsmith verify` against every valid sample.
+tolerance-driven peers run by turns, with nothing beside them, and "ratio" is the median of tinsmith's wall time (2
+threads) over delatin's in the same turn, whole process / own. The count-driven ones run once, up to 10 million samples
+two of them at a time, each on a core of its own. Errors are in metres, measured by `tinsmith verify` against every
+valid sample.
 """
 
 OTHERS = """\
