@@ -10,6 +10,7 @@ import argparse
 import concurrent.futures
 import hashlib
 import json
+import math
 import pathlib
 import shlex
 import signal
@@ -122,7 +123,8 @@ class Bench:
 
     def _measured(self, tool, case, repetition, mesh):
         """Its costs and, the first time, the judge's verdict."""
-        result = measure.run(self.command(tool, case, mesh), self.limit)
+        limit = self.limit if tool.may_be_ended else math.inf
+        result = measure.run(self.command(tool, case, mesh), limit)
         said = result.pop("stdout")
         wrong = result.pop("stderr").strip().splitlines()
         if result["exit_code"] == 0:
@@ -276,7 +278,8 @@ def parse(arguments):
     parser.add_argument("--efforts", type=words, metavar="A,B", default=["default"], help="of tinsmith's --effort")
     parser.add_argument("--runs", type=counts, metavar="N[,N]", default=[5, 3],
                         help="of each, up to 2 million samples and above (default: 5,3)")
-    parser.add_argument("--limit", type=float, metavar="S", default=900, help="seconds after which a run is ended")
+    parser.add_argument("--limit", type=float, metavar="S", default=900,
+                        help="seconds after which a peer's run is ended (default: 900)")
     parser.add_argument("--out", type=pathlib.Path, metavar="FILE.md", default=TOP / "tools/bench/RESULTS.md",
                         help="the tables, and beside it all there is as FILE.json (default: tools/bench/RESULTS.md)")
     parser.add_argument("--tables", action="store_true", help="run nothing, only write the tables of what was run")

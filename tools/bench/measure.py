@@ -37,7 +37,7 @@ def run(command, limit):
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         start = time.perf_counter()
         child = subprocess.Popen(command, stdout=out, stderr=err, start_new_session=True)
-        timer = threading.Timer(limit, _kill, [child.pid])
+        timer = threading.Timer(min(limit, threading.TIMEOUT_MAX), _kill, [child.pid])
         timer.start()
         try:
             _running.add(child.pid)

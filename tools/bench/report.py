@@ -283,7 +283,7 @@ def made_by(document, all_tools):
     versions = ", ".join(f"{key} {value}" for key, value in document["versions"].items())
     return (f"Made by `{document['command'].strip()}`.\n\n"
             f"Machine: {machine}. Load before the runs: median {load['median']:.1f}, highest {load['highest']:.1f} "
-            f"(0 is a quiet machine). Runs were ended after {document['limit_seconds']:g} s.\n\n"
+            f"(0 is a quiet machine). Runs of peers were ended after {document['limit_seconds']:g} s.\n\n"
             f"Versions: {versions}.\n\n" + table(["tool", "command"], commands))
 
 

@@ -13,6 +13,7 @@ class Tool:
     command: str
     knows_voids: bool = True
     decimates: bool = False  # from the full mesh: the fewer triangles are to be left, the longer it takes
+    may_be_ended: bool = True  # after the limit
 
 
 def tinsmith_tools(efforts):
@@ -23,7 +24,8 @@ def tinsmith_tools(efforts):
         label = "tinsmith" if effort == "default" else f"tinsmith {effort}"
         for threads in (1, 2):
             tools.append(Tool(f"{label}, {threads} thread{'s' * (threads > 1)}", "{build}/tinsmith compress {input} "
-                              f"{{out}} --max-error {{m}} --threads {threads}{option} --no-verify --json -"))
+                              f"{{out}} --max-error {{m}} --threads {threads}{option} --no-verify --json -",
+                              may_be_ended=False))
     return tools
 
 
