@@ -127,6 +127,7 @@ class KillTest : public FaultsTest {
     add(outcome, killings);
     if (fs::exists(output())) {  // too late, even if the program was still about to tidy up and exit
       ++killings.n_whole;
+      EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == (signal == SIGKILL ? -1 : 130)) << outcome.err;
       EXPECT_EQ(static_cast<double>(fs::file_size(output())), course.output_bytes);
       fs::remove(output());
       fs::remove_all(work());
