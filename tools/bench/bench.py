@@ -17,6 +17,7 @@ import signal
 import statistics
 import subprocess
 import sys
+import tempfile
 
 import inputs
 import measure
@@ -110,11 +111,9 @@ class Bench:
             return json.loads(path.read_text())
         if self.runs_nothing:
             return {"failed": report.NOT_RUN}
-        mesh = path.with_suffix(".ply")
-        try:
-            result = self._measured(tool, case, repetition, mesh)
-        finally:
-            mesh.unlink(missing_ok=True)
+        # Each in an empty folder: tinsmith would go on with the work that an interrupted run has left.
+        with tempfile.TemporaryDirectory(dir=self.runs) as empty:
+            result = self._measured(tool, case, repetition, pathlib.Path(empty) / f"{name}.ply")
         unfinished = path.with_suffix(".new")
         unfinished.write_text(json.dumps(result, indent=1))
         unfinished.rename(path)
