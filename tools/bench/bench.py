@@ -33,28 +33,29 @@ JUDGED = ["samples", "uncovered", "vertices", "triangles", "max_error", "rmse", 
 
 class Patience:
     """Which runs are not worth starting after one that ran into the limit. What a tool that decimates the full mesh
-    takes grows with the triangles that it removes, of any raster; what one that inserts takes, with fineness."""
+    takes grows with the triangles that it removes; what one that inserts takes, with fineness. Between rasters the
+    time for a removed triangle differs, so that of another one twice as many must have been too many."""
 
     def __init__(self, limit):
         self.limit = limit
-        self.hopeless = {}
+        self.over = {}  # by tool: the cases that ran into the limit
 
     @staticmethod
-    def effort(tool, case):
-        """What the time grows with, and among which runs."""
+    def hopeless(tool, case, over):
+        same = case["input"] == over["input"]
         if tool.decimates:
-            return case["n_removed"], tool.name
-        return -case["tolerance"], (tool.name, case["input"])
+            return case["n_removed"] >= (1 if same else 2) * over["n_removed"]
+        return same and case["tolerance"] <= over["tolerance"]
 
     def why_not(self, tool, case):
-        effort, among = self.effort(tool, case)
-        least, where = self.hopeless.get(among, (None, None))
-        return f"not run: over {self.limit:g} s {where}" if where and effort >= least else None
+        for over in self.over.get(tool.name, []):
+            if self.hopeless(tool, case, over):
+                return f"not run: over {self.limit:g} s for {over['input']}, {over['tolerance']:g} m"
+        return None
 
     def learn(self, tool, case, run):
         if run.get("limit_hit"):
-            effort, among = self.effort(tool, case)
-            self.hopeless[among] = effort, f"for {case['input']}, {case['tolerance']:g} m"
+            self.over.setdefault(tool.name, []).append(case)
 
 
 class Bench:
@@ -98,29 +99,29 @@ class Bench:
         return {key: certificate[key] for key in JUDGED}
 
     def once(self, tool, case, repetition=0):
-        """One run, or what an earlier one left, or why there is none."""
-        reason = self.patience.why_not(tool, case)
-        run = {"failed": reason} if reason else self._found_or_measured(tool, case, repetition)
+        """What an earlier run left, or one now, or why there is none."""
+        name = f"{case['input']}.{case['tolerance']:g}m.{tool.name.replace(', ', '-').replace(' ', '-')}.{repetition}"
+        path = self.runs / f"{name}.json"
+        reason = self.patience.why_not(tool, case) or (report.NOT_RUN if self.runs_nothing else None)
+        if path.exists():
+            run = json.loads(path.read_text())
+        elif reason:
+            run = {"failed": reason}
+        else:
+            run = self._measured(tool, case, repetition, name)
+            unfinished = path.with_suffix(".new")
+            unfinished.write_text(json.dumps(run, indent=1))
+            unfinished.rename(path)
+            say(name, run)
         self.patience.learn(tool, case, run)
         return run
 
-    def _found_or_measured(self, tool, case, repetition):
-        name = f"{case['input']}.{case['tolerance']:g}m.{tool.name.replace(', ', '-').replace(' ', '-')}.{repetition}"
-        path = self.runs / f"{name}.json"
-        if path.exists():
-            return json.loads(path.read_text())
-        if self.runs_nothing:
-            return {"failed": report.NOT_RUN}
-        # Each in an empty folder: tinsmith would go on with the work that an interrupted run has left.
+    def _measured(self, tool, case, repetition, name):
+        # In an empty folder: tinsmith would go on with the work that an interrupted run has left.
         with tempfile.TemporaryDirectory(dir=self.runs) as empty:
-            result = self._measured(tool, case, repetition, pathlib.Path(empty) / f"{name}.ply")
-        unfinished = path.with_suffix(".new")
-        unfinished.write_text(json.dumps(result, indent=1))
-        unfinished.rename(path)
-        say(name, result)
-        return result
+            return self._measured_into(pathlib.Path(empty) / f"{name}.ply", tool, case, repetition)
 
-    def _measured(self, tool, case, repetition, mesh):
+    def _measured_into(self, mesh, tool, case, repetition):
         """Its costs and, the first time, the judge's verdict."""
         limit = self.limit if tool.may_be_ended else math.inf
         result = measure.run(self.command(tool, case, mesh), limit)
